@@ -1,0 +1,33 @@
+# make view · make test: each sets up all it needs first. GNU make, POSIX sh.
+
+PYTHON      ?=
+VENV        ?= .venv
+WORKERS     ?= 2
+PRESET      ?=
+PYTEST_ARGS ?=
+
+BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
+SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
+
+.DEFAULT_GOAL := help
+.PHONY: help setup view test clean
+
+help: ## list the targets
+	@echo 'Blackhole GL'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "%-16s %s\n", $$1, $$2 }'
+	@echo 'Settings: PYTHON=python3.12  VENV=.venv  PRESET=kerr (view)  WORKERS=2  PYTEST_ARGS="tests/unit -x" (test)'
+
+setup: ## the virtual environment and the GL libraries, no more
+	@$(SETUP) run
+
+view: ## open the viewer; without a display, write a picture
+	@$(SETUP) run
+	@$(BIN)/blackhole-gl view $(if $(PRESET),--preset $(PRESET))
+
+test: ## run the whole test suite
+	@$(SETUP) test
+	$(BIN)/python -m pytest -n $(WORKERS) $(PYTEST_ARGS)
+
+clean: ## remove the virtual environment and what builds and tests left
+	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
+	find blackhole_gl tests tools -name __pycache__ -type d -exec rm -rf {} +
