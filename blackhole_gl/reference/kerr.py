@@ -1,0 +1,173 @@
+"""Null geodesics of Kerr by Hamilton's equations in Cartesian Kerr-Schild coordinates (float64, M = 1).
+
+With ingoing coordinates the inverse metric is flat space minus f l l, so that
+
+    H = 1/2 (-E^2 + |p|^2 - f kappa^2) = 0,   kappa = E + l.p
+    f = 2 r^3/(r^4 + a^2 z^2),   l = ((r x + a y)/(r^2+a^2), (r y - a x)/(r^2+a^2), z/r)
+
+(Kerr & Schild 1965). They are regular on the axis, in the equatorial plane and on the future horizon.
+
+A ray traced backwards is a photon of the time-reversed space-time, which is Kerr with -a: the photon starts along the
+look direction n and falls through the future horizon when the picture shows the hole. Its L_z is minus the physical one.
+
+To reach infinity exactly, the state is not (x, p) but, with R = |x| and the parameter d sigma = d lambda/R^2,
+
+    n = x/R,   w = 1/R,   L = x cross p,   p_n = n.p         (p = p_n n + w L cross n)
+
+In these f = w F, and F and l depend on n and a w alone: every factor R cancels and the equations are analytic through w = 0.
+L' needs only the explicit dependence on the axis: what is left rotates jointly with x and p.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .observers import Momenta, Place
+
+Array = np.ndarray
+
+# Rows of the state.
+N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY = range(9)
+
+
+class KerrSystem:
+    """Right-hand side for photons of Kerr with spin parameter `spin` (the reversed one, see above)."""
+
+    def __init__(self, spin: float):
+        self.spin = spin
+        self.r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
+
+    def rhs(self, state: Array) -> Array:
+        a = self.spin
+        nx, ny, s, w, lx, ly, lz, pn, energy = state
+        ah = a * w
+        a2, s2 = ah * ah, s * s
+        root = np.sqrt((1.0 - a2) ** 2 + 4.0 * a2 * s2)
+        rho2 = 0.5 * (1.0 - a2 + root)  # rho = w r
+        rho = np.sqrt(rho2)
+        inv_d = 1.0 / (rho2 * root)  # 1/(rho^4 + a2 s2)
+        c = 1.0 / (rho2 + a2)
+        big_f = 2.0 * rho / root
+        sr = s / rho
+
+        lnx, lny, lnz = ly * s - lz * ny, lz * nx - lx * s, lx * ny - ly * nx  # L cross n
+        pz = pn * s + w * lnz
+        wlz = w * lz
+        kappa = energy + c * (rho * pn - ah * wlz + a2 * sr * pz)
+        fk = big_f * kappa
+
+        # l = c (rho n + ah n cross z + a2 sr z); its parts along and across n
+        c_twist, c_axis = fk * c * ah, fk * c * a2 * sr
+        nx_dot = lnx - c_twist * ny + c_axis * s * nx
+        ny_dot = lny + c_twist * nx + c_axis * s * ny
+        nz_dot = lnz - c_axis * (1.0 - s2)
+        w_dot = w * fk * c * (rho + a2 * s * sr) - pn
+
+        # L' = q z cross n + fk c ah (z cross L) - fk c a ah sr (z cross p)
+        sigma = s * rho * inv_d  # d rho/ds = a2 sigma
+        slope_f = s * rho * rho2 * inv_d * inv_d * (2.0 * (3.0 * a2 * s2 - rho2 * rho2) * inv_d - 4.0)
+        slope_l = (c * c * sigma * ((a2 - rho2) * pn + 2.0 * rho * ah * wlz)
+                   + pz * (c / rho - s * a2 * sigma * (c / rho2 + 2.0 * c * c)))
+        q = -a * ah * (0.5 * kappa * kappa * slope_f + fk * (slope_l + c * sr * pn))
+        q_p = fk * c * a * ah * sr * w
+        lx_dot = -q * ny - c_twist * ly + q_p * lny
+        ly_dot = q * nx + c_twist * lx - q_p * lnx
+
+        # p_n' = w (L cross n).n' - kappa^2/2 d(w F)/dw - w fk a d(l.p)/d(ah)
+        rho_a = ah * (s2 - rho2) * rho * inv_d
+        f_a = big_f * (3.0 * rho_a / rho - (4.0 * rho * rho2 * rho_a + 2.0 * ah * s2) * inv_d)
+        c_a = -2.0 * c * c * (rho * rho_a + ah)
+        lp_a = ((c_a * rho + c * rho_a) * pn - (c_a * ah + c) * wlz
+                + (c_a * a2 + 2.0 * c * ah - c * a2 * rho_a / rho) * sr * pz)
+        pn_dot = (w * (lnx * nx_dot + lny * ny_dot + lnz * nz_dot)
+                  - 0.5 * kappa * kappa * (big_f + ah * f_a) - w * fk * a * lp_a)
+        zero = np.zeros_like(w)
+        return np.stack([nx_dot, ny_dot, nz_dot, w_dot, lx_dot, ly_dot, zero, pn_dot, zero])
+
+    def scale(self, state: Array) -> Array:
+        size = np.ones_like(state)
+        angular = 1.0 + self._angular_momentum(state)
+        size[W] = 1.0 / angular  # the angle swept until w has changed by dw is L dw
+        size[L_X:P_N] = angular
+        size[P_N] = np.maximum(np.abs(state[P_N]), np.abs(state[ENERGY]))
+        return size
+
+    def longest_step(self, state: Array) -> Array:
+        # Below half a turn of the orbit's plane: a ray meets z = 0 at most once in a step.
+        return 2.0 / (self._angular_momentum(state) + abs(self.spin) * np.abs(state[ENERGY]) + 1e-3)
+
+    def captured(self, state: Array) -> Array:
+        """Mask (N,): behind the future horizon, whence nothing comes back."""
+        return state[W] * self.r_plus > self._rho(state)
+
+    def radius(self, state: Array) -> Array:
+        """Boyer-Lindquist r in M, (N,)."""
+        return self._rho(state) / state[W]
+
+    def azimuth(self, state: Array) -> Array:
+        """Boyer-Lindquist phi, (N,): Kerr-Schild's less the twist of its coordinates, in closed form."""
+        r = self.radius(state)
+        return np.arctan2(state[N_Y], state[N_X]) - np.arctan2(self.spin, r) + self.azimuth_lag(r)
+
+    def azimuth_lag(self, r: Array | float) -> Array | float:
+        """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays."""
+        gap = 2.0 * (self.r_plus - 1.0)
+        return self.spin * np.log1p(gap / (r - self.r_plus)) / gap
+
+    def direction(self, state: Array) -> Array:
+        """World direction at infinity (N, 3): the two azimuths agree there."""
+        n = state[N_X:W].T
+        return n / np.linalg.norm(n, axis=1, keepdims=True)
+
+    def start(self, place: Place, momenta: Momenta) -> Array:
+        """State (9, N) of photons at a finite place."""
+        a, r, cos, sin = self.spin, place.r, place.cos_theta, place.sin_theta
+        sigma = r * r + (a * cos) ** 2
+        delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
+        root = np.abs(momenta.radial) * math.sqrt(sigma * delta)
+        # p_r of the ingoing coordinates = (P +- root)/Delta - E; the difference is formed as K/(P + root).
+        p_r = np.where(momenta.radial > 0.0, (momenta.carter_p + root) / delta,
+                       momenta.carter_k / (momenta.carter_p + root)) - momenta.energy
+        p_theta = momenta.p_theta - a * momenta.l_over_sin * cos / r
+        along_u = (r / sigma) * (r * sin * p_r + cos * p_theta)
+        along_z = (cos * (r * r + a * a) * p_r - r * sin * p_theta) / sigma
+        along_e = (momenta.l_over_sin + a * along_u) / r
+
+        lag = self.azimuth_lag(r)
+        cp = place.cos_phi * math.cos(lag) + place.sin_phi * math.sin(lag)
+        sp = place.sin_phi * math.cos(lag) - place.cos_phi * math.sin(lag)
+        u, e, z = np.array([cp, sp, 0.0]), np.array([-sp, cp, 0.0]), np.array([0.0, 0.0, 1.0])
+        x = sin * (r * u + a * e) + r * cos * z
+        p = np.outer(u, along_u) + np.outer(e, along_e) + np.outer(z, along_z)
+        return self._state(x / np.linalg.norm(x), 1.0 / float(np.linalg.norm(x)), np.cross(x, p.T).T,
+                           sin * momenta.l_over_sin, p, momenta.energy)
+
+    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+        """State (9, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
+        e_r, e_theta, e_phi = place.frame()
+        alpha, beta = screen.T
+        momentum = -np.outer(e_theta, alpha) - np.outer(e_phi, beta)
+        p = -np.repeat(e_r[:, None], len(screen), axis=1)
+        return self._state(e_r, 0.0, momentum, alpha * place.sin_theta, p, np.ones(len(screen)))
+
+    @staticmethod
+    def _state(n: Array, w: float, momentum: Array, l_z: Array, p: Array, energy: Array) -> Array:
+        state = np.empty((9, energy.size))
+        state[N_X:W] = n[:, None]
+        state[W] = w
+        state[L_X:L_Z] = momentum[:2]
+        state[L_Z] = l_z
+        state[P_N] = n @ p
+        state[ENERGY] = energy
+        return state
+
+    @staticmethod
+    def _angular_momentum(state: Array) -> Array:
+        return np.sqrt(state[L_X] ** 2 + state[L_Y] ** 2 + state[L_Z] ** 2)
+
+    def _rho(self, state: Array) -> Array:
+        a2 = (self.spin * state[W]) ** 2
+        q = 1.0 - a2
+        return np.sqrt(0.5 * (q + np.sqrt(q * q + 4.0 * a2 * state[N_Z] ** 2)))

@@ -1,0 +1,176 @@
+"""From a camera and its rays to hits, in float64: the twin of the shaders' trace pass."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .. import relativity
+from . import flat
+from .hits import CAPTURED, ESCAPED, UNRESOLVED, ReferenceHits, angles, wrapped
+from .integrator import EVALUATIONS_PER_STEP, locate_zero, march
+from .kerr import KerrSystem
+from .observers import Place, momenta, static_observer_exists
+from .schwarzschild import N_Z, W, SchwarzschildSystem
+
+MODELS = ("flat", "schwarzschild", "kerr_like", "kerr")
+INNERMOST_CROSSING = 1.02  # in units of the horizon: below, a crossing is left empty
+_MAX_STEPS = 1000
+_BATCH = 512  # rays per batch: the working set of a step stays in the cache
+
+Array = np.ndarray
+
+
+def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
+          observer: str = "static", directions: Array | None = None, screen: Array | None = None,
+          gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0, orders: int = 3,
+          orbit: str = "prograde", tolerance: float = 1e-12) -> ReferenceHits:
+    """Traces rays backwards from the camera.
+
+    model            "flat", "schwarzschild", "kerr_like" or "kerr"
+    spin             a*, -0.9999 ... 0.9999; schwarzschild takes it as 0, flat uses it for the ball's size and the emitters' orbits
+    distance         Boyer-Lindquist r of the camera in r_s, above the horizon; may be inf
+    inclination_deg  theta of the camera, 0 ... 180; azimuth_deg: its phi
+    observer         "static" or "zamo"; only kerr tells them apart
+    directions       (N, 3) look directions (n_r, n_theta, n_phi) in the observer's frame; normalised here
+    screen           (N, 2) alpha (right), beta (up) in M: instead of directions, when distance is inf
+    gravity_strength G of schwarzschild and kerr_like; horizon_size: their capture radius in r_s
+    drag             k of kerr_like
+    orders           number of plane crossings kept; orbit: "prograde" or "retrograde" emitters
+    tolerance        error allowed per step of the integrator
+
+    Raises ValueError for an unknown model, a camera below the horizon, or rays that do not fit the distance.
+    """
+    if model not in MODELS:
+        raise ValueError(f"unknown ray model {model!r}: one of {', '.join(MODELS)}")
+    at_infinity = math.isinf(distance)
+    if (screen is None) == (directions is None) or (screen is None) == at_infinity:
+        raise ValueError("rays are given by `screen` when distance is inf, and by `directions` otherwise")
+    if model == "schwarzschild":
+        spin = 0.0
+    horizon = 1.0 if model == "kerr_like" else relativity.horizon_radius(spin)
+    if distance <= horizon:
+        raise ValueError(f"the camera at r = {distance} r_s lies within the horizon at {horizon} r_s")
+    rays = np.array(screen if at_infinity else directions, dtype=np.float64).reshape(-1, 2 if at_infinity else 3)
+    if not at_infinity:
+        rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+
+    place_m = Place.from_degrees(2.0 * distance, inclination_deg, azimuth_deg)
+    place = Place.from_degrees(distance, inclination_deg, azimuth_deg)
+    used = observer
+    if model == "kerr" and observer == "static" and not static_observer_exists(place_m, spin):
+        used = "zamo"
+    parts = [rays[i:i + _BATCH] for i in range(0, len(rays), _BATCH)] or [rays]
+    if model == "kerr":
+        traced = [_trace_kerr(part, place_m, spin, used, orders, tolerance) for part in parts]
+    elif model == "flat":
+        traced = [_trace_flat(part, place, horizon_size * horizon, orders) for part in parts]
+    else:
+        system = SchwarzschildSystem(gravity_strength, horizon_size, drag * spin if model == "kerr_like" else 0.0)
+        traced = [_trace_schwarzschild(part, place, system, orders, tolerance) for part in parts]
+    fate, direction, steps, r, phi, energy, l_z = (np.concatenate(pieces) for pieces in zip(*traced, strict=True))
+
+    r = np.where(r < INNERMOST_CROSSING * horizon, np.nan, r)
+    theta, azimuth = angles(direction, fate)
+    return ReferenceHits(
+        fate=fate, direction=direction, theta=theta, phi=azimuth, steps=steps, evaluations=steps * EVALUATIONS_PER_STEP,
+        crossing_r=r, crossing_phi=np.where(np.isnan(r), np.nan, wrapped(phi)),
+        g=_emitter_ratio(r, energy, l_z, spin, orbit), lambda_=l_z / energy, observer=used)
+
+
+def _emitter_ratio(r: Array, energy: Array, l_z: Array, spin: float, orbit: str) -> Array:
+    """E/(u^t (E - Omega L_z)), NaN inside the ISCO; E is kept apart because a ZAMO in the ergosphere sees E <= 0 too."""
+    outside = r >= relativity.isco_radius(spin, orbit)
+    safe = np.where(outside, r, 100.0)
+    rate = 0.5 * relativity.orbital_frequency(safe, spin, orbit)
+    e, l = energy[:, None], l_z[:, None]
+    return np.where(outside, e / (relativity.orbital_u_t(safe, spin, orbit) * (e - rate * l)), np.nan)
+
+
+def _trace_kerr(rays, place, spin, observer, orders, tolerance):
+    system = KerrSystem(-spin)
+    if math.isinf(place.r):
+        state = system.start_at_infinity(place, rays)
+    else:
+        state = system.start(place, momenta(rays, place, -spin, observer))
+    energy, l_z = state[8].copy(), -state[6]
+    fate, direction, steps, r, phi = _follow(system, state, orders, tolerance)
+    return fate, direction, steps, 0.5 * r, phi, energy, l_z
+
+
+def _trace_schwarzschild(rays, place, system, orders, tolerance):
+    if math.isinf(place.r):
+        state = system.start_at_infinity(place, 0.5 * rays)
+        l_z = -rays[:, 0] * place.sin_theta
+    else:
+        state = system.start(place, rays)
+        lapse = math.sqrt((place.r - 1.0) / place.r)
+        l_z = -2.0 * place.r * place.sin_theta * rays[:, 2] / lapse
+    return *_follow(system, state, orders, tolerance), np.ones(len(rays)), l_z
+
+
+def _trace_flat(rays, place, radius, orders):
+    if math.isinf(place.r):
+        position, direction = flat.start_at_infinity(place, 0.5 * rays)
+        l_z = -rays[:, 0] * place.sin_theta
+    else:
+        position, direction = flat.start(place, rays)
+        l_z = -2.0 * place.r * place.sin_theta * rays[:, 2]
+    fate, point = flat.trace_lines(position, direction, radius)
+    direction = np.where((fate == ESCAPED)[:, None], direction, 0.0)
+    r, phi = np.full((2, len(rays), orders), np.nan)
+    if orders:
+        r[:, 0] = np.hypot(point[:, 0], point[:, 1])
+        phi[:, 0] = np.arctan2(point[:, 1], point[:, 0])
+    return fate, direction, np.zeros(len(rays), dtype=np.int64), r, phi, np.ones(len(rays)), l_z
+
+
+def _follow(system, state: Array, orders: int, tolerance: float):
+    """Marches rays to their fate: (fate, direction, steps, crossing radius in the system's unit, crossing azimuth)."""
+    events = _Events(system, state, orders)
+    with np.errstate(all="ignore"):
+        _, steps = march(system, state, 0.05 * system.longest_step(state), events, tolerance=tolerance, max_steps=_MAX_STEPS)
+    return events.fate, events.direction, steps, events.radius, events.azimuth
+
+
+class _Events:
+    """Watches accepted steps for crossings of z = 0, escape (w = 0) and capture."""
+
+    def __init__(self, system, state: Array, orders: int):
+        count = state.shape[1]
+        self.system = system
+        self.orders = orders
+        self.side = np.sign(state[N_Z])
+        self.crossings = np.zeros(count, dtype=np.int64)
+        self.fate = np.full(count, UNRESOLVED, dtype=np.int8)
+        self.direction = np.zeros((count, 3))
+        self.radius, self.azimuth = np.full((2, count, orders), np.nan)
+
+    def __call__(self, rays: Array, before: Array, after: Array, step: Array) -> Array:
+        escaped = after[W] <= 0.0
+        end = step.copy()
+        if escaped.any():
+            part = np.flatnonzero(escaped)
+            end[part], state = locate_zero(self.system, W, before[:, part], after[:, part], step[part])
+            self.direction[rays[part]] = self.system.direction(state)
+            self.fate[rays[part]] = ESCAPED
+        self._cross(rays, before, after, step, end)
+        captured = ~escaped & self.system.captured(after)
+        self.fate[rays[captured]] = CAPTURED
+        return escaped | captured
+
+    def _cross(self, rays: Array, before: Array, after: Array, step: Array, end: Array) -> None:
+        side = np.sign(after[N_Z])
+        # A camera in the plane (side 0) takes the side its ray leaves to; its own place is no crossing.
+        part = np.flatnonzero((side * self.side[rays] < 0.0) & (self.crossings[rays] < self.orders))
+        self.side[rays] = np.where(side != 0.0, side, self.side[rays])
+        if not part.size:
+            return
+        parameter, state = locate_zero(self.system, N_Z, before[:, part], after[:, part], step[part])
+        real = (parameter < end[part]) & ~self.system.captured(state) & (state[W] > 0.0)
+        part, state = part[real], state[:, real]
+        order = self.crossings[rays[part]]
+        self.radius[rays[part], order] = self.system.radius(state)
+        self.azimuth[rays[part], order] = self.system.azimuth(state)
+        self.crossings[rays[part]] += 1
