@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 level=${1:-run}
 venv=${VENV:-.venv}
 
-say() { printf '%s\n' "$*"; }
+say() { printf '%s\n' "$@"; }
 stop() { printf '%s\n' "$@" >&2; exit 1; }
 
 case $level in
@@ -40,7 +40,7 @@ find_python() {
         "Install one, or name it: make PYTHON=/path/to/python3.12"
 }
 
-# --- Debian packages -------------------------------------------------------------------------------------------------------
+# --- what the system brings ------------------------------------------------------------------------------------------------
 
 can_load() {  # can_load PYTHON LIBRARY…
     loader=$1
@@ -63,10 +63,12 @@ administrator() {  # prints the prefix that runs a command as root; fails when t
     return 1
 }
 
+apt_line() { say "sudo apt-get update && sudo apt-get install -y --no-install-recommends $1"; }
+
 apt_install() {  # apt_install PACKAGE…: output is kept from the screen unless it fails
     as_root=$(administrator) || return 1
     command -v apt-get >/dev/null 2>&1 || return 1
-    say "Installing Debian packages: $* …"
+    say "Installing system packages with apt-get: $* …"
     log=$(mktemp)
     if { $as_root apt-get update && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@"; } >"$log" 2>&1 </dev/null
     then
@@ -83,7 +85,7 @@ require() {  # require WHAT PACKAGE…
     shift
     if apt_install "$@"; then return; fi
     if command -v apt-get >/dev/null 2>&1; then
-        stop "Missing: $what. Install it, then run make again:" "" "    sudo apt-get install -y --no-install-recommends $*" ""
+        stop "Missing: $what. Install, then run make again:" "" "    $(apt_line "$*")" ""
     fi
     stop "Missing: $what." "Install it with your system's package manager (Fedora: dnf install mesa-libEGL mesa-libGL; Arch: pacman -S mesa), then run make again."
 }
@@ -102,7 +104,7 @@ check_system() {
     if [ -n "$missing" ]; then require "$what" $missing; fi
     if [ "$level" = test ] && [ "$(uname -s)" = Linux ] && ! can_load "$python" libOSMesa.so.8 && ! apt_install libosmesa6; then
         say "libOSMesa.so.8 is missing, so the tests marked osmesa will fail. Either bring it or leave them out:" "" \
-            "    sudo apt-get install -y --no-install-recommends libosmesa6" "    make test PYTEST_ARGS='-m \"not osmesa\"'" ""
+            "    $(apt_line libosmesa6)" "    make test PYTEST_ARGS='-m \"not osmesa\"'" ""
     fi
 }
 
@@ -124,8 +126,9 @@ fill_venv() {
     rm -f "$venv/.ready-$level"
     say "Installing Python packages into $venv (once; a minute or two) …"
     # The build tools first, so that they are the pinned ones too.
-    pip install --quiet --constraint constraints.txt hatchling editables
-    pip install --quiet --constraint constraints.txt --no-build-isolation --editable "$target"
+    pip install --quiet --constraint constraints.txt hatchling editables &&
+        pip install --quiet --constraint constraints.txt --no-build-isolation --editable "$target" ||
+        stop "pip could not install the packages: its message is above. Is the package index reachable? Then run make again."
     wanted_key >"$venv/.ready-$level"
 }
 

@@ -1,0 +1,29 @@
+"""Rendering without a window loads neither the panel's library nor the window's."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+RENDER_ONE_FRAME = """
+import json, sys
+from blackhole_gl import presets
+from blackhole_gl.render.context import create_headless
+from blackhole_gl.render.frame import Renderer
+
+renderer = Renderer(create_headless("egl"))
+renderer.render(presets.load(["schwarzschild"], {}), time=0.0, size=(32, 18))
+picture = renderer.read_rgb8()
+print(json.dumps({"shape": picture.shape, "brightest": int(picture.max()), "modules": sorted(sys.modules)}))
+"""
+
+
+def test_headless_frame_loads_no_window_library(tmp_path: Path) -> None:
+    run = subprocess.run([sys.executable, "-c", RENDER_ONE_FRAME], cwd=tmp_path, capture_output=True, text=True, timeout=240)
+    assert run.returncode == 0, run.stderr
+    found = json.loads(run.stdout.splitlines()[-1])
+    assert found["shape"] == [18, 32, 3]
+    assert found["brightest"] > 0
+    assert not {"imgui_bundle", "glfw", "blackhole_gl.app", "typer"} & set(found["modules"])
