@@ -1,6 +1,7 @@
 """Presets: TOML files ↔ scenes.
 
-A preset is a TOML file: optional `title`, `description`, `group` and `rank` (its place in lists) at the top, then a table for each section of the scene::
+A preset is a TOML file: optional `title`, `description`, `group` and `rank` (its place in lists) at the top, then a table
+for each section of the scene::
 
     title = "Kerr, a* = 0.6"
     [hole]

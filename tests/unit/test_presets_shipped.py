@@ -5,9 +5,10 @@ import math
 import pytest
 
 from blackhole_gl import presets
+from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, fields
 
-SHIPPED = [info for info in presets.available() if info.group != presets.USER_GROUP]
+SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 
 # SPEC §8, physics presets of S1; the camera's distance is given for the first only.
 S1_PHYSICS = {
