@@ -1,0 +1,80 @@
+/*---
+label = "Point field"
+summary = "A dense rotating field of bright points, with a few boosted rings."
+source = "S0: points with radial tapers, mass biased to small radii, turbulence, narrow ring boosts of high gain"
+slot = "disk_layer"
+rank = 10
+
+[parameters.share]
+default = 0.75
+range = [0.0, 1.0]
+help = "Share of the disk's matter that is in points; the rest is smooth."
+
+[parameters.rings]
+default = 26.0
+range = [4.0, 120.0]
+help = "Rings of points from one radius to e = 2.7 times it, in the coarsest of three sizes."
+
+[parameters.inward_bias]
+default = 1.0
+range = [0.0, 4.0]
+help = "Power with which the points' mass grows towards small radii."
+
+[parameters.ring_gain]
+default = 2.5
+range = [0.0, 20.0]
+help = "How much brighter the few boosted rings are."
+
+[parameters.turbulence]
+default = 0.6
+range = [0.0, 2.0]
+help = "Strength of the clumping of the points."
+---*/
+#include "common/noise.glsl"
+#include "common/disk_orbit.glsl"
+
+const float POINT_RADIUS = 0.24; // of a cell; with a jitter of ±0.25 no point leaves its own cell, so one cell is enough
+
+// Density of the points of one size in one phase of the shear, mean 1. Rings turn rigidly, each at its own Keplerian rate.
+float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
+    float place = log(matter.radius) * rings;
+    float ring = floor(place);
+    float cells = floor(6.2831853 * rings);
+    float angle = -disk_rate(exp((ring + 0.5) / rings)) * disk_noise_speed * age;
+    vec2 turn = vec2(cos(angle), sin(angle));
+    vec2 heading = vec2(turn.x * matter.heading.x - turn.y * matter.heading.y, turn.y * matter.heading.x + turn.x * matter.heading.y);
+    float around = (atan(heading.y, heading.x) / 6.2831853 + 0.5) * cells;
+    float cell = min(floor(around), cells - 1.0);
+    uint h = hash_lattice(ivec3(int(ring), int(cell), 0), seed);
+    vec3 draw = hash_vec3(h);
+    vec2 offset = vec2(place - ring, around - cell) - 0.5 - 0.5 * (draw.xy - 0.5);
+
+    // A point never gets smaller than the pixel, and keeps its mass; where pixels outgrow cells only the mean is left.
+    vec2 pixel = matter.footprint * vec2(rings, cells / 6.2831853);
+    vec2 size = sqrt(POINT_RADIUS * POINT_RADIUS + pixel * pixel);
+    float fall = max(1.0 - dot(offset / size, offset / size), 0.0);
+    float height = 3.0 / (3.1415927 * size.x * size.y);
+    float mass = 3.0 * draw.z * draw.z;
+    float boost = 1.0 + disk_point_field_ring_gain * step(0.93, hash_vec3(hash_lattice(ivec3(int(ring), 7, 7), 99u)).x);
+    boost /= 1.0 + 0.07 * disk_point_field_ring_gain;
+    float kept = 1.0 - smoothstep(0.2, 0.6, max(pixel.x, pixel.y));
+    return boost * mix(1.0, height * mass * fall * fall, kept);
+}
+
+float points_of_phase(DiskMatter matter, float age, float seed) {
+    float sum = 0.0;
+    for (int i = 0; i < 3; ++i)
+        sum += points_of_size(matter, disk_point_field_rings * exp2(0.7 * float(i)), age, uint(seed) * 4u + uint(i));
+    float clump = simplex_noise(vec3(matter.heading * 3.0, 6.0 * log(matter.radius)), uint(seed));
+    return sum / 3.0 * max(1.0 + 2.0 * disk_point_field_turbulence * clump, 0.0);
+}
+
+DiskMatter disk_layer_point_field(DiskMatter matter) {
+    float points = shear_phase.z * points_of_phase(matter, shear_phase.x, shear_seed.x)
+                 + shear_phase.w * points_of_phase(matter, shear_phase.y, shear_seed.y);
+    float depth = (matter.radius - disk_r_in) / (disk_r_out - disk_r_in);
+    float taper = smoothstep(0.0, 0.06, depth) * (1.0 - smoothstep(0.75, 1.0, depth));
+    float bias = pow(disk_r_in / matter.radius, disk_point_field_inward_bias) * (1.0 + disk_point_field_inward_bias);
+    matter.density *= mix(1.0, points * taper * bias, disk_point_field_share);
+    return matter;
+}

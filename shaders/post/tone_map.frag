@@ -1,0 +1,67 @@
+#version 330 core
+// Radiance → picture: exposure, glow, tone curve, creative gamma, sRGB transfer (IEC 61966-2-1), dither.
+#defines
+#blocks
+#include "common/noise.glsl"
+
+uniform sampler2D radiance;
+#if POST_BLOOM
+uniform sampler2D glow;
+uniform vec2 target_texel;
+#endif
+
+out vec4 colour;
+
+#if POST_TONE_MAP_REINHARD
+// Reinhard et al. 2002, eq. 4, on each channel, white at 16.
+vec3 tone_curve(vec3 light) {
+    return light * (1.0 + light / 256.0) / (1.0 + light);
+}
+#elif POST_TONE_MAP_ACES
+// K. Narkowicz' rational fit to the ACES reference rendering, "ACES filmic tone mapping curve" (2015).
+vec3 tone_curve(vec3 light) {
+    return light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
+}
+#elif POST_TONE_MAP_AGX
+// In the manner of T. Sobotka's AgX: colours are drawn towards grey, a sigmoid acts on stops −10…+6.5 about middle grey 0.18,
+// and most of the saturation is given back. The sigmoid x^a/(x^a + b(1−x)^a)-like curve is our own fit to its published shape:
+// middle grey goes to itself, slope 2.4 in stops-normalised units, toe and shoulder reach 0 and 1.
+vec3 tone_curve(vec3 light) {
+    const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);
+    vec3 drawn = mix(light, vec3(dot(light, vec3(1.0 / 3.0))), 0.16);
+    vec3 x = clamp((log2(max(drawn, 1e-8) / 0.18) + 10.0) / 16.5, 0.0, 1.0);
+    const float POWER = 2.6;
+    vec3 rise = pow(x, vec3(POWER)), rest = pow(1.0 - x, vec3(POWER));
+    vec3 encoded = rise / (rise + 1.06 * rest); // 10/16.5 of the way → 0.46, the sRGB code of 0.18
+    vec3 shown = pow(encoded, vec3(2.2));
+    return max(mix(vec3(dot(shown, WEIGHTS)), shown, 1.12), 0.0);
+}
+#else
+vec3 tone_curve(vec3 light) {
+    return light;
+}
+#endif
+
+vec3 srgb_code(vec3 light) {
+    return mix(12.92 * light, 1.055 * pow(max(light, 1e-5), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
+}
+
+// Noise of triangular distribution, −1…1, for each channel; a fixed function of the pixel.
+vec3 dither_noise(uvec2 pixel) {
+    uint h = hash_bits(pixel.x + 0x9e3779b1u * hash_bits(pixel.y + 1u));
+    return hash_vec3(h) - hash_vec3(hash_bits(h));
+}
+
+void main() {
+    vec3 light = texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb;
+#if POST_BLOOM
+    light += post_bloom_intensity * textureLod(glow, gl_FragCoord.xy * target_texel, 0.0).rgb;
+#endif
+    light = clamp(tone_curve(light * exp2(post_exposure)), 0.0, 1.0);
+    vec3 code = srgb_code(pow(light, vec3(1.0 / post_gamma)));
+#if POST_DITHER
+    // One grey level at most, less near black and white, so that both stay clean.
+    code += dither_noise(uvec2(gl_FragCoord.xy)) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));
+#endif
+    colour = vec4(code, 1.0);
+}
