@@ -123,13 +123,13 @@ fill_venv() {
         say "Making the virtual environment $venv with $("$python" --version) …"
         "$python" -m venv --clear "$venv"
     fi
-    rm -f "$venv/.ready-$level"
+    rm -f "$venv/.ready-$level" "$venv/.ready-run"
     say "Installing Python packages into $venv (once; a minute or two) …"
     # The build tools first, so that they are the pinned ones too.
     pip install --quiet --constraint constraints.txt hatchling editables &&
         pip install --quiet --constraint constraints.txt --no-build-isolation --editable "$target" ||
         stop "pip could not install the packages: its message is above. Is the package index reachable? Then run make again."
-    wanted_key >"$venv/.ready-$level"
+    wanted_key | tee "$venv/.ready-run" >"$venv/.ready-$level"  # every level holds what run asks for
 }
 
 find_python
