@@ -1,0 +1,121 @@
+"""Smooth orbit and zoom of the camera, free of any window.
+
+The hand moves a *target*; the camera follows it as a first-order lag, ``x' = (target − x)/τ``. Within a frame the target is taken to move
+at a constant rate, for which the lag has a closed solution, so the path does not depend on how time is cut into frames.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Mapping
+
+from ..fields import Field
+from ..scene import Scene, fields
+
+SMOOTHING_TIME = 0.09  # τ in seconds: fast enough to feel attached to the hand, slow enough to hide the wheel's notches
+_REST_DEG = 2e-3  # nearer than this to the target the camera is at rest, and the window may idle
+_REST_REACH = 2e-5
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where the camera is.
+
+    Attributes:
+        azimuth, inclination: degrees; the azimuth is not wrapped, the inclination is 0…180.
+        reach: natural logarithm of (distance − horizon) in r_s, or of the picture's height in M for a camera at infinity.
+    """
+
+    azimuth: float
+    inclination: float
+    reach: float
+
+    def moved(self, azimuth: float = 0.0, inclination: float = 0.0, reach: float = 0.0) -> Pose:
+        """This pose with the given amounts added, kept from tipping over the poles."""
+        tilted = min(max(self.inclination + inclination, 0.0), 180.0)
+        return Pose(self.azimuth + azimuth, tilted, self.reach + reach)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The camera on its way: where it is and where the hand wants it."""
+
+    current: Pose
+    target: Pose
+
+    @classmethod
+    def at(cls, scene: Scene) -> Motion:
+        """At rest where `scene` has its camera."""
+        pose = pose_of(scene)
+        return cls(pose, pose)
+
+    @property
+    def at_rest(self) -> bool:
+        return self.current == self.target
+
+    def advanced(self, wanted: Pose, dt: float) -> Motion:
+        """After `dt` seconds in which the target moved evenly to `wanted`."""
+        if dt <= 0.0:
+            return replace(self, target=wanted)
+        followed = [_follow(getattr(self.current, name), getattr(self.target, name), getattr(wanted, name), dt) for name in ("azimuth", "inclination", "reach")]
+        current = Pose(*followed)
+        return Motion(wanted if _is_near(current, wanted) else current, wanted)
+
+
+def _follow(x: float, before: float, after: float, dt: float) -> float:
+    """Exact solution of ``x' = (target − x)/τ`` for a target that goes evenly from `before` to `after` in `dt`."""
+    lag = (after - before) / dt * SMOOTHING_TIME
+    return after - lag + (x - before + lag) * math.exp(-dt / SMOOTHING_TIME)
+
+
+def _is_near(a: Pose, b: Pose) -> bool:
+    return max(abs(a.azimuth - b.azimuth), abs(a.inclination - b.inclination)) < _REST_DEG and abs(a.reach - b.reach) < _REST_REACH
+
+
+def horizon_radius(scene: Scene) -> float:
+    """The outer horizon r_+ in r_s, which zooming approaches and never passes."""
+    spin = abs(scene.hole.spin)
+    return 0.5 * (1.0 + math.sqrt((1.0 - spin) * (1.0 + spin)))
+
+
+def pose_of(scene: Scene) -> Pose:
+    """The pose of `scene`'s camera."""
+    camera = scene.camera
+    return Pose(camera.azimuth_deg, camera.inclination_deg, math.log(_extent(scene) - _floor(scene)))
+
+
+def values_of(pose: Pose, scene: Scene) -> Mapping[str, float]:
+    """The scene values, by key, that put `scene`'s camera at `pose`; only those that it does not have yet.
+
+    They are rounded far below what can be seen, so that a camera sent back to 20 r_s is saved as 20 and not as 20.000000000000004.
+    """
+    here, values = pose_of(scene), {}
+    if pose.azimuth != here.azimuth:
+        turn = pose.azimuth if abs(pose.azimuth) <= 180.0 else math.remainder(pose.azimuth, 360.0)
+        values["camera.azimuth_deg"] = round(turn, 7)
+    if pose.inclination != here.inclination:
+        values["camera.inclination_deg"] = round(pose.inclination, 7)
+    if pose.reach != here.reach:
+        field = _extent_field(scene)
+        extent = float(f"{_floor(scene) + math.exp(pose.reach):.10g}")
+        values[field.key] = min(max(extent, field.low), field.high)
+    return values
+
+
+def limited(pose: Pose, scene: Scene) -> Pose:
+    """`pose` with its reach inside the range of the scene's field."""
+    field, floor = _extent_field(scene), _floor(scene)
+    return replace(pose, reach=min(max(pose.reach, math.log(field.low - floor)), math.log(field.high - floor)))
+
+
+def _extent_field(scene: Scene) -> Field:
+    return fields()["camera.field_m" if math.isinf(scene.camera.distance) else "camera.distance"]
+
+
+def _extent(scene: Scene) -> float:
+    return scene.get(_extent_field(scene).key)
+
+
+def _floor(scene: Scene) -> float:
+    return 0.0 if math.isinf(scene.camera.distance) else horizon_radius(scene)

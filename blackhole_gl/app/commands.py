@@ -1,0 +1,120 @@
+"""What keys, the mouse and buttons do to the state. No imgui here."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable, Collection, Mapping
+
+from .camera_control import Motion, limited, pose_of
+from .state import WindowState
+
+DRAG_DEG = 180.0  # a drag over the picture's height
+WHEEL_REACH = 0.15  # a notch, in logarithms of the distance from the horizon
+HOLD_DEG = 60.0  # a held key, a second
+HOLD_REACH = 1.2
+DEFAULT_KERR_SPIN = 0.9
+
+_HELD: Mapping[str, tuple[float, float, float]] = {
+    # action: degrees of azimuth and inclination and logarithms of reach, a second
+    "orbit_left": (-HOLD_DEG, 0.0, 0.0),
+    "orbit_right": (HOLD_DEG, 0.0, 0.0),
+    "orbit_up": (0.0, -HOLD_DEG, 0.0),
+    "orbit_down": (0.0, HOLD_DEG, 0.0),
+    "zoom_in": (0.0, 0.0, -HOLD_REACH),
+    "zoom_out": (0.0, 0.0, HOLD_REACH),
+}
+
+
+@dataclass(frozen=True)
+class Hand:
+    """What the user's hands did in one frame.
+
+    Attributes:
+        drag: pixels right and down, over the picture's height in pixels.
+        wheel: notches, positive away from the user.
+        held: names of the held actions.
+    """
+
+    drag: tuple[float, float] = (0.0, 0.0)
+    wheel: float = 0.0
+    held: Collection[str] = ()
+
+
+def advance(state: WindowState, hand: Hand, dt: float) -> None:
+    """Lets `dt` seconds pass: the camera follows the hand, scene time runs unless paused, notices leave."""
+    right, down = hand.drag
+    # The near side of what is looked at follows the hand, so the camera goes the other way.
+    azimuth, inclination, reach = -DRAG_DEG * right, -DRAG_DEG * down, -WHEEL_REACH * hand.wheel
+    for name in hand.held:
+        turn, tilt, go = _HELD[name]
+        azimuth, inclination, reach = azimuth + turn * dt, inclination + tilt * dt, reach + go * dt
+    target = state.motion.target
+    if azimuth or inclination or reach:
+        target = limited(target.moved(azimuth, inclination, reach), state.scene)
+    state.move_camera(state.motion.advanced(target, dt))
+    if state.is_playing:
+        state.time += dt * state.scene.playback.rate
+    state.clock += dt
+    if state.notice and state.notice.until is not None and state.clock > state.notice.until:
+        state.notice = None
+
+
+def toggle_disk(state: WindowState) -> None:
+    """Disk on or off."""
+    state.change({"disk.enabled": not state.scene.disk.enabled})
+
+
+def toggle_spin(state: WindowState) -> None:
+    """From a spinning hole to one without spin or back, each with the spin and ray model it last had."""
+    scene = state.scene
+    spinning = scene.hole.spin != 0.0
+    state.holes[spinning] = {"hole.spin": scene.hole.spin, "rays.model": scene.rays.model}
+    first = {"hole.spin": 0.0} if spinning else {"hole.spin": DEFAULT_KERR_SPIN, "rays.model": "kerr"}
+    state.change(state.holes.get(not spinning, first))
+    spin = state.scene.hole.spin
+    state.say(f"Kerr: a* = {spin:g}" if spin else "Schwarzschild: no spin")
+
+
+def toggle_pause(state: WindowState) -> None:
+    """Stops scene time or lets it run."""
+    state.paused = not state.paused
+
+
+def reset_camera(state: WindowState) -> None:
+    """Sends the camera back to where the home scene has it, the short way round."""
+    home = state.home.camera
+    pose_keys = {"camera.distance": home.distance, "camera.inclination_deg": home.inclination_deg, "camera.azimuth_deg": home.azimuth_deg}
+    view = {"camera.fov_deg": home.fov_deg, "camera.observer": home.observer}
+    if math.isinf(home.distance) or math.isinf(state.scene.camera.distance):
+        # There is no way between a near and an infinitely far camera.
+        state.change({**pose_keys, **view, "camera.field_m": home.field_m})
+        return
+    state.change(view)
+    pose = pose_of(state.scene.with_values(pose_keys))
+    here = state.motion.current
+    turns = round((here.azimuth - pose.azimuth) / 360.0)
+    state.motion = Motion(here, limited(pose.moved(azimuth=360.0 * turns), state.scene))
+
+
+def flip(name: str) -> Callable[[WindowState], None]:
+    """A command that turns the state's switch `name` over."""
+
+    def command(state: WindowState) -> None:
+        setattr(state, name, not getattr(state, name))
+
+    return command
+
+
+COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
+    # every action of `keys.ACTIONS` that needs nothing but the state and is not held
+    "disk": toggle_disk,
+    "spin": toggle_spin,
+    "pause": toggle_pause,
+    "reset": reset_camera,
+    "help": flip("show_help"),
+    "picture": flip("picture_wanted"),
+    "full_screen": flip("full_screen"),
+    "panel": flip("show_panel"),
+    "overlay": flip("show_overlay"),
+}

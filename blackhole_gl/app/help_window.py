@@ -1,0 +1,75 @@
+"""The window that lists keys and mouse, made from the bindings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from imgui_bundle import hello_imgui, imgui
+
+from ..output.files import write_whole
+from . import theme
+from .keys import ACTIONS, Bindings, Chord, template
+from .state import WindowState
+
+_MOUSE = (
+    ("Drag", "Orbit"),
+    ("Wheel", "Move closer or away"),
+    ("Double-click a name", "Reset the value"),
+    ("Right-click a name", "More ways to reset"),
+    ("Ctrl+click a slider", "Type the value"),
+    ("Click an orange dot", "Back to physics"),
+    ("ESC", "Leave a field"),
+)
+_SIGNS = {"PLUS": "+", "EQUAL": "=", "MINUS": "-", "KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -"}
+
+
+def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
+    """Draws the window when it is wanted; its close button and ESC put it away.
+
+    Args:
+        key_file: where the user's own keys are read from.
+    """
+    if not state.show_help:
+        return
+    em = hello_imgui.em_size()
+    centre = imgui.get_main_viewport().get_center()
+    imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
+    imgui.set_next_window_size_constraints((24.0 * em, 0.0), (40.0 * em, imgui.get_main_viewport().size.y))
+    flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
+    visible, state.show_help = imgui.begin("Help", True, flags.value)
+    if visible:
+        _table("keys", [(_keys_text(bindings[action.name]), action.help) for action in ACTIONS])
+        imgui.separator()
+        _table("mouse", _MOUSE)
+        imgui.separator()
+        _file(state, key_file)
+        if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape):
+            state.show_help = False
+    imgui.end()
+
+
+def _keys_text(chords: tuple[Chord, ...]) -> str:
+    return "   ".join("+".join((*chord.modifiers, _SIGNS.get(chord.key, chord.key))) for chord in chords) or "no key"
+
+
+def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:
+    if imgui.begin_table(name, 2, imgui.TableFlags_.sizing_fixed_fit.value):
+        for left, right in rows:
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text_colored(theme.ACCENT, left)
+            imgui.table_next_column()
+            imgui.text_unformatted(right)
+        imgui.end_table()
+
+
+def _file(state: WindowState, key_file: Path) -> None:
+    imgui.text_colored(theme.DIM, f"Keys can be changed in\n{key_file}")
+    if key_file.exists() or not imgui.button("Write that file with the keys as they are"):
+        return
+    try:
+        write_whole(key_file, template().encode("utf-8"))
+    except OSError as error:
+        state.complain(f"{key_file}: cannot be written: {error.strerror or error}")
+        return
+    state.say(f"Wrote {key_file}; it is read when the viewer starts.")

@@ -1,0 +1,149 @@
+"""Which key does what, and the text file that changes it.
+
+``keys.toml`` in the user's configuration folder holds lines such as ``disk = "SPACE"`` or ``zoom_in = ["PLUS", "CTRL+UP"]``;
+actions it does not name keep their keys. ESC is not for the taking: it leaves a field.
+"""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Mapping
+
+MODIFIERS = ("CTRL", "SHIFT", "ALT", "SUPER")
+
+
+class KeysError(ValueError):
+    """A key file that cannot be used; the text names the file, the entry and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Chord:
+    """A key with the modifiers held, both by the names used in the file."""
+
+    key: str
+    modifiers: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return "+".join((*self.modifiers, self.key))
+
+
+@dataclass(frozen=True)
+class Action:
+    """Something a key does.
+
+    Attributes:
+        name: as the key file names it.
+        keys: the chords it has when no file says otherwise.
+        help: what people read.
+        held: whether it goes on while the key is down.
+    """
+
+    name: str
+    keys: tuple[str, ...]
+    help: str
+    held: bool = False
+
+
+ACTIONS: tuple[Action, ...] = (
+    Action("disk", ("SPACE",), "Disk on or off"),
+    Action("spin", ("S",), "Schwarzschild (no spin) or Kerr"),
+    Action("pause", ("P",), "Pause or go on"),
+    Action("orbit_left", ("LEFT",), "Orbit to the left", held=True),
+    Action("orbit_right", ("RIGHT",), "Orbit to the right", held=True),
+    Action("orbit_up", ("UP",), "Orbit upwards", held=True),
+    Action("orbit_down", ("DOWN",), "Orbit downwards", held=True),
+    Action("zoom_in", ("PLUS", "EQUAL", "KEYPAD_ADD"), "Move closer", held=True),
+    Action("zoom_out", ("MINUS", "KEYPAD_SUBTRACT"), "Move away", held=True),
+    Action("reset", ("R",), "Camera back to where the scene has it"),
+    Action("help", ("F1", "H"), "This window"),
+    Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),
+    Action("full_screen", ("F11",), "Full screen"),
+    Action("panel", ("TAB",), "Show or hide the panel"),
+    Action("overlay", ("O",), "Show or hide the figures"),
+    Action("save", ("CTRL+S",), "Save the scene"),
+    Action("copy", ("CTRL+SHIFT+C",), "Copy the scene as TOML"),
+    Action("paste", ("CTRL+SHIFT+V",), "Take the scene from the clipboard"),
+)
+
+_NAMED = ("SPACE", "TAB", "ENTER", "BACKSPACE", "INSERT", "DELETE", "HOME", "END", "PAGE_UP", "PAGE_DOWN", "LEFT", "RIGHT", "UP", "DOWN")
+_SIGNS = ("PLUS", "MINUS", "EQUAL", "COMMA", "PERIOD", "SLASH", "SEMICOLON", "APOSTROPHE", "BACKSLASH", "LEFT_BRACKET", "RIGHT_BRACKET", "GRAVE_ACCENT")
+_KEYPAD = ("KEYPAD_ADD", "KEYPAD_SUBTRACT", "KEYPAD_MULTIPLY", "KEYPAD_DIVIDE", "KEYPAD_ENTER", *(f"KEYPAD_{n}" for n in range(10)))
+KEY_NAMES = (*"ABCDEFGHIJKLMNOPQRSTUVWXYZ", *"0123456789", *(f"F{n}" for n in range(1, 13)), *_NAMED, *_SIGNS, *_KEYPAD)
+
+Bindings = Mapping[str, tuple[Chord, ...]]
+
+
+def parse_chord(text: str) -> Chord:
+    """The chord that `text` says, e.g. ``"CTRL+S"``; case does not matter.
+
+    Raises:
+        KeysError: unknown key or modifier.
+    """
+    *modifiers, key = text.upper().replace(" ", "").split("+")
+    for word in modifiers:
+        if word not in MODIFIERS:
+            raise KeysError(f"{text!r}: no such modifier {word!r}; allowed are {', '.join(MODIFIERS)}")
+    if key not in KEY_NAMES:
+        raise KeysError(f"{text!r}: no such key {key!r}{_nearest(key, KEY_NAMES) or '; use names such as SPACE, F5, A, PLUS, KEYPAD_ADD'}")
+    return Chord(key, tuple(word for word in MODIFIERS if word in modifiers))
+
+
+def default_bindings() -> Bindings:
+    """Every action with the chords of `ACTIONS`."""
+    return {action.name: tuple(parse_chord(text) for text in action.keys) for action in ACTIONS}
+
+
+def load_bindings(path: Path) -> Bindings:
+    """The bindings that the file at `path` gives; the defaults when there is no file.
+
+    Raises:
+        KeysError: not TOML, an unknown action or key, or one key for two actions.
+    """
+    if not path.is_file():
+        return default_bindings()
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise KeysError(f"{path}: cannot be read: {error}") from None
+    bindings = dict(default_bindings())
+    for name, given in entries.items():
+        if name not in bindings:
+            raise KeysError(f"{path}: {name}: no such action{_nearest(name, bindings) or '; allowed are ' + ', '.join(bindings)}")
+        try:
+            bindings[name] = _chords(given)
+        except KeysError as error:
+            raise KeysError(f"{path}: {name}: {error}") from None
+    _refuse_doubles(bindings, path)
+    return bindings
+
+
+def template() -> str:
+    """A key file that says what is so without one, with every line explained."""
+    lines = ["# Keys of the viewer. A line gives one chord or a list; [] leaves the action without a key.", ""]
+    for action in ACTIONS:
+        chords = ", ".join(f'"{text}"' for text in action.keys)
+        lines.append(f"{action.name} = [{chords}]  # {action.help}")
+    return "\n".join(lines) + "\n"
+
+
+def _chords(given: Any) -> tuple[Chord, ...]:
+    texts = [given] if isinstance(given, str) else given
+    if not isinstance(texts, list) or not all(isinstance(text, str) for text in texts):
+        raise KeysError(f'got {given!r}; allowed is a chord such as "CTRL+S" or a list of chords')
+    return tuple(parse_chord(text) for text in texts)
+
+
+def _refuse_doubles(bindings: Bindings, path: Path) -> None:
+    owner: dict[Chord, str] = {}
+    for name, chords in bindings.items():
+        for chord in chords:
+            if owner.setdefault(chord, name) != name:
+                raise KeysError(f"{path}: {name}: {chord} already belongs to {owner[chord]}; give one of the two another key")
+
+
+def _nearest(word: str, known: Any) -> str:
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f"; did you mean {near[0]}?" if near else ""

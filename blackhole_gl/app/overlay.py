@@ -1,0 +1,80 @@
+"""What is written over the picture: figures, notices and errors."""
+
+from __future__ import annotations
+
+from imgui_bundle import hello_imgui, imgui
+
+from . import theme
+from .picture import Picture
+from .state import WindowState
+
+_FLAGS = imgui.WindowFlags_
+_FIXED = (_FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_saved_settings | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing | _FLAGS.no_nav | _FLAGS.no_move).value
+_UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
+
+Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
+
+
+def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
+    """The renderer's figures, with their top left at `corner`."""
+    report = picture.report
+    if not state.show_overlay or report is None:
+        return
+    imgui.set_next_window_pos(corner)
+    imgui.set_next_window_bg_alpha(0.45)
+    imgui.begin("##figures", None, _UNTOUCHED)
+    speed = f"{imgui.get_io().framerate:.0f} fps" if state.is_moving else "at rest"
+    trace = f"{report.trace_ms:.1f} ms" if report.traced else "kept"
+    imgui.text_colored(theme.DIM, f"{speed}, paused" if state.paused else speed)
+    imgui.text_colored(theme.DIM, f"trace {trace}   shade {report.shade_ms:.1f} ms   post {report.post_ms:.1f} ms")
+    imgui.text_colored(theme.DIM, report.method)
+    if picture.rays is not None:
+        imgui.text_colored(theme.DIM, f"{picture.rays.steps:.1f} steps a ray")
+        colour = theme.ERROR if picture.rays.unresolved else theme.DIM
+        imgui.text_colored(colour, f"{picture.rays.unresolved} unresolved rays")
+    if picture.divisor > 1:
+        imgui.text_colored(theme.DIM, f"1/{picture.divisor} of the pixels each way while moving")
+    imgui.end()
+
+
+def messages(state: WindowState, corner: Corner, width: float) -> None:
+    """Errors and the notice, with their bottom left at `corner`, at most `width` wide; errors stay until mended or dismissed."""
+    if state.shader_error:
+        corner = _message("Shader", state.shader_error, corner, width, is_error=True)
+    if state.render_error:
+        corner = _message("Renderer", state.render_error, corner, width, is_error=True)
+    if state.notice and _dismissable("Notice", state, corner, width):
+        state.notice = None
+
+
+def _dismissable(name: str, state: WindowState, corner: Corner, width: float) -> bool:
+    _begin_message(name, corner, width, _FIXED if state.notice.is_error else _UNTOUCHED)
+    dismissed = state.notice.is_error and imgui.small_button("x")
+    if state.notice.is_error:
+        imgui.same_line()
+    _body(state.notice.text, state.notice.is_error, width)
+    imgui.end()
+    return dismissed
+
+
+def _message(name: str, text: str, corner: Corner, width: float, *, is_error: bool) -> Corner:
+    _begin_message(name, corner, width, _UNTOUCHED)
+    _body(text, is_error, width)
+    height = imgui.get_window_height()
+    imgui.end()
+    return corner[0], corner[1] - height - 0.5 * hello_imgui.em_size()
+
+
+def _begin_message(name: str, corner: Corner, width: float, flags: int) -> None:
+    imgui.set_next_window_pos(corner, imgui.Cond_.always.value, (0.0, 1.0))
+    imgui.set_next_window_size_constraints((0.0, 0.0), (width, 1e4))
+    imgui.set_next_window_bg_alpha(0.85)
+    imgui.begin(f"{name}##message", None, flags)
+
+
+def _body(text: str, is_error: bool, width: float) -> None:
+    imgui.push_text_wrap_pos(width - 2.0 * imgui.get_style().window_padding.x)
+    imgui.push_style_color(imgui.Col_.text, theme.ERROR if is_error else theme.TEXT)
+    imgui.text_unformatted(text)
+    imgui.pop_style_color()
+    imgui.pop_text_wrap_pos()

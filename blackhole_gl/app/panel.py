@@ -1,0 +1,178 @@
+"""The panel beside the picture, made from the scene's fields."""
+
+from __future__ import annotations
+
+import math
+from typing import Mapping
+
+from imgui_bundle import hello_imgui, imgui
+
+from .. import catalogue, presets
+from ..fields import Field
+from ..scene import Scene, fields
+from . import preset_switch, scene_files, theme, widgets
+from .state import WindowState
+
+_TITLES = {"hole": "Black hole", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image", "playback": "Playback"}
+_OPEN_AT_START = ("hole", "camera", "disk")
+
+
+class Panel:
+    """The panel's own memory: the list of presets and the text of its filter."""
+
+    def __init__(self) -> None:
+        self._presets = presets.available()
+        self._filter = ""
+
+    def draw(self, state: WindowState) -> None:
+        """Draws the panel into the current window."""
+        self._pickers(state)
+        self._files(state)
+        _departures(state)
+        imgui.separator()
+        imgui.set_next_item_width(-1.0)
+        _, self._filter = imgui.input_text_with_hint("##filter", "Find a value", self._filter)
+        wanted = self._filter.strip().lower()
+        for section, items in _sections().items():
+            shown = [item for item in items if _matches(item, wanted) and _is_active(item, state.scene)]
+            if shown:
+                _section(section, shown, state, forced_open=bool(wanted))
+
+    def _pickers(self, state: WindowState) -> None:
+        if not imgui.begin_table("pickers", 2):
+            return
+        _columns()
+        for group in preset_switch.LAYERED:
+            self._picker(group.capitalize(), (group,), state)
+        if any(info.group in preset_switch.WHOLE for info in self._presets):
+            self._picker("Scene", preset_switch.WHOLE, state)
+        imgui.end_table()
+
+    def _picker(self, label: str, groups: tuple[str, ...], state: WindowState) -> None:
+        listed = [info for info in self._presets if info.group in groups]
+        current = next((info for info in listed if state.chosen.get(info.group) == info.name), None)
+        imgui.table_next_row()
+        imgui.table_next_column()
+        imgui.align_text_to_frame_padding()
+        imgui.text_unformatted(label)
+        imgui.table_next_column()
+        imgui.set_next_item_width(-1.0)
+        if not imgui.begin_combo(f"##{label} preset", current.title if current else "–", imgui.ComboFlags_.height_large.value):
+            if current and current.description:
+                _wrapped_tooltip(current.description)
+            return
+        for info in listed:
+            clicked, _ = imgui.selectable(f"{info.title}##{info.name}", info is current)
+            if info.description:
+                _wrapped_tooltip(info.description)
+            if clicked:
+                preset_switch.pick(state, info.group, info.name)
+        imgui.end_combo()
+
+    def _files(self, state: WindowState) -> None:
+        width = (imgui.get_content_region_avail().x - 3.0 * imgui.get_style().item_spacing.x) / 4.0
+        imgui.set_next_item_width(2.0 * width + imgui.get_style().item_spacing.x)
+        edited, state.file = imgui.input_text("##file", state.file)
+        if edited:
+            state.replace_file = ""
+        _wrapped_tooltip(f"A preset (.toml) or a picture saved here (.png). A bare name lies in {presets.user_presets_dir()}.")
+        imgui.same_line()
+        if imgui.button("Save", (width, 0.0)):
+            scene_files.save(state)
+            self._presets = presets.available()
+        imgui.same_line()
+        if imgui.button("Load", (width, 0.0)):
+            scene_files.load(state)
+        half = 2.0 * width + imgui.get_style().item_spacing.x
+        if imgui.button("Copy as TOML", (half, 0.0)):
+            imgui.set_clipboard_text(scene_files.text_of(state))
+        imgui.same_line()
+        if imgui.button("Paste TOML", (half, 0.0)):
+            scene_files.take(state, imgui.get_clipboard_text())
+
+
+def _columns() -> None:
+    imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch.value, 0.44)
+    imgui.table_setup_column("value", imgui.TableColumnFlags_.width_stretch.value, 0.56)
+
+
+def _sections() -> Mapping[str, list[Field]]:
+    sections: dict[str, list[Field]] = {}
+    for key, item in fields().items():
+        sections.setdefault(key.split(".", 1)[0], []).append(item)
+    return sections
+
+
+def _section(section: str, items: list[Field], state: WindowState, *, forced_open: bool) -> None:
+    if forced_open:
+        imgui.set_next_item_open(True)
+    else:
+        imgui.set_next_item_open(section in _OPEN_AT_START, imgui.Cond_.first_use_ever.value)
+    if not imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}"):
+        return
+    group = None
+    if not imgui.begin_table(f"values of {section}", 2):
+        return
+    _columns()
+    for item in items:
+        plug_in = _plug_in_of(item)
+        if plug_in != group:
+            group = plug_in
+            _subheading(group)
+        widgets.row(item, state.scene.get(item.key), state.change)
+    imgui.end_table()
+
+
+def _subheading(plug_in: catalogue.PlugIn | None) -> None:
+    if plug_in is None:
+        return
+    imgui.table_next_row()
+    imgui.table_next_column()
+    imgui.dummy((0.5 * hello_imgui.em_size(), 0.0))
+    imgui.same_line(0.0, 0.35 * hello_imgui.em_size())
+    imgui.text_colored(theme.ACCENT, plug_in.label)
+    _wrapped_tooltip(plug_in.summary)
+
+
+def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
+    """The plug-in that declares `item`, or None for the scene's own."""
+    for slot in catalogue.SLOTS:
+        for plug_in in catalogue.plug_ins(slot).values():
+            if item.key in plug_in.parameters:
+                return plug_in
+    return None
+
+
+def _is_active(item: Field, scene: Scene) -> bool:
+    """Whether `item` has any bearing on `scene`: those of a near or a far camera, and those of plug-ins that take part."""
+    if item.key in ("camera.fov_deg", "camera.field_m"):
+        return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
+    parts = item.key.split(".")
+    if len(parts) < 3:
+        return True
+    section, plug_in = parts[0], parts[1]
+    switch = fields().get(f"{section}.{plug_in}")
+    if switch is not None:
+        return bool(scene.get(switch.key))
+    return any(other.kind == "choice" and key.startswith(f"{section}.") and scene.get(key) == plug_in for key, other in fields().items())
+
+
+def _matches(item: Field, wanted: str) -> bool:
+    return wanted in item.key.lower() or wanted in widgets.label_of(item.key).lower()
+
+
+def _departures(state: WindowState) -> None:
+    """A line that says which values make this picture art; nothing when there are none."""
+    names = [widgets.label_of(item.key).lower() for item in fields().values() if widgets.departs(item, state.scene.get(item.key))]
+    if names:
+        imgui.push_style_color(imgui.Col_.text, theme.DEPARTS)
+        imgui.text_wrapped("Departs from physics: " + ", ".join(names))
+        imgui.pop_style_color()
+
+
+def _wrapped_tooltip(text: str) -> None:
+    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip.value) and imgui.begin_tooltip():
+        imgui.push_text_wrap_pos(26.0 * hello_imgui.em_size())
+        imgui.text_unformatted(text)
+        imgui.pop_text_wrap_pos()
+        imgui.end_tooltip()

@@ -1,0 +1,92 @@
+"""Scenes and pictures on disk and in the clipboard, as the window's buttons and keys reach them."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+
+from .. import presets
+from ..output import png
+from ..scene import Scene
+from .state import WindowState
+
+
+def path_of(text: str) -> Path:
+    """The file that the panel's file field means: a bare name lies among the user's presets, and ``.toml`` may be left out."""
+    path = Path(text.strip()).expanduser()
+    if path.suffix.lower() not in (".toml", ".png"):
+        path = path.with_name(path.name + ".toml") if path.name else path
+    return path if path.is_absolute() or len(path.parts) > 1 else presets.user_presets_dir() / path
+
+
+def save(state: WindowState) -> None:
+    """Saves the scene as a preset; a file that is already there is replaced only when asked a second time."""
+    if not state.file.strip():
+        state.complain("The file field is empty: type a name, then save.")
+        return
+    path = path_of(state.file)
+    if path.exists() and state.replace_file != str(path):
+        state.replace_file = str(path)
+        state.say(f"{path} exists. Save again to replace it.")
+        return
+    state.replace_file = ""
+    try:
+        presets.save(state.scene, path)
+    except presets.SceneError as error:
+        state.complain(str(error))
+        return
+    state.say(f"Saved {path}")
+
+
+def load(state: WindowState) -> None:
+    """Shows the scene of the file named in the file field, a preset or a picture that was saved here."""
+    try:
+        scene = presets.load([path_of(state.file)])
+    except presets.SceneError as error:
+        state.complain(str(error))
+        return
+    state.chosen = {}
+    state.show(scene, as_home=True)
+    state.say(f"Loaded {path_of(state.file)}")
+
+
+def text_of(state: WindowState) -> str:
+    """The scene as TOML for the clipboard."""
+    state.say("The scene is in the clipboard, as TOML.")
+    return presets.dumps(state.scene)
+
+
+def take(state: WindowState, text: str) -> None:
+    """Shows the scene that `text` (TOML, from the clipboard) says."""
+    try:
+        preset = presets.parse(text, "clipboard")
+        if not preset.values:
+            raise presets.PresetError("holds no value of a scene; copy a preset's text first", source="clipboard")
+        scene = Scene().with_values(preset.values)
+    except presets.SceneError as error:
+        state.complain(str(error))
+        return
+    state.chosen = {}
+    state.show(scene, as_home=True)
+    state.say("Took the scene from the clipboard.")
+
+
+def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
+    """Writes `pixels` ((height, width, 3) uint8, top row first) with the scene inside to a new file in `folder`."""
+    path = _new_name(folder, datetime.now().strftime("blackhole-%Y%m%d-%H%M%S"))
+    try:
+        png.write(path, pixels, presets.picture_text(state.scene, state.time))
+    except OSError as error:
+        state.complain(f"{path}: cannot be written: {error.strerror or error}")
+        return
+    state.say(f"Saved {path}")
+
+
+def _new_name(folder: Path, stem: str) -> Path:
+    path, count = folder / f"{stem}.png", 1
+    while path.exists():
+        count += 1
+        path = folder / f"{stem}-{count}.png"
+    return path

@@ -1,0 +1,104 @@
+"""The one mutable record of the window; all else is functions of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Mapping
+
+from ..scene import Scene, SceneError
+from .camera_control import Motion, pose_of, values_of
+
+NOTICE_SECONDS = 6.0
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A sentence for the user, with the clock time [s] at which it leaves; None stays until replaced."""
+
+    text: str
+    is_error: bool = False
+    until: float | None = None
+
+
+@dataclass
+class WindowState:
+    """What the window shows and does.
+
+    Attributes:
+        scene: the scene shown now.
+        home: the scene whose camera R returns to.
+        motion: the camera on its way.
+        chosen: preset group → name of the preset last picked in it.
+        time: scene time in r_s/c.
+        clock: the window's own clock in seconds, advanced by each frame.
+        holes: spinning or not → the values that S brings back.
+        file: what the panel's file field says.
+        replace_file: the path that the next Save may overwrite.
+        shader_error: what is wrong with the shaders on disk, or None.
+        render_error: why the last picture could not be made, or None.
+    """
+
+    scene: Scene
+    home: Scene
+    motion: Motion
+    chosen: dict[str, str] = field(default_factory=dict)
+    time: float = 0.0
+    clock: float = 0.0
+    paused: bool = False
+    dragging: bool = False
+    holes: dict[bool, Mapping[str, Any]] = field(default_factory=dict)
+    show_panel: bool = True
+    show_help: bool = False
+    show_overlay: bool = True
+    full_screen: bool = False
+    picture_wanted: bool = False
+    file: str = "scene.toml"
+    replace_file: str = ""
+    notice: Notice | None = None
+    shader_error: str | None = None
+    render_error: str | None = None
+
+    @classmethod
+    def start(cls, scene: Scene, chosen: Mapping[str, str] | None = None) -> WindowState:
+        """The state of a window that has just opened on `scene`."""
+        return cls(scene=scene, home=scene, motion=Motion.at(scene), chosen=dict(chosen or {}))
+
+    def show(self, scene: Scene, *, as_home: bool = False) -> None:
+        """Shows `scene`; the camera jumps only where `scene` has it elsewhere. `as_home` makes it the scene that R returns to."""
+        if pose_of(scene) != pose_of(self.scene):
+            self.motion = Motion.at(scene)
+        self.scene = scene
+        if as_home:
+            self.home = scene
+
+    def change(self, values: Mapping[str, Any]) -> None:
+        """Puts `values` (dotted key → value) into the scene; what a field refuses becomes a notice."""
+        try:
+            self.show(self.scene.with_values(values))
+        except SceneError as error:
+            self.complain(str(error))
+
+    def move_camera(self, motion: Motion) -> None:
+        """Puts the camera where `motion` has it now."""
+        if motion.current != self.motion.current:
+            self.scene = self.scene.with_values(values_of(motion.current, self.scene))
+        self.motion = motion
+
+    def say(self, text: str) -> None:
+        """Shows `text` for a few seconds."""
+        self.notice = Notice(text, until=self.clock + NOTICE_SECONDS)
+
+    def complain(self, text: str) -> None:
+        """Shows `text` as an error, until something else is shown or the user dismisses it."""
+        self.notice = Notice(text, is_error=True)
+
+    @property
+    def is_playing(self) -> bool:
+        """Whether the picture changes by itself."""
+        scene = self.scene
+        return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and (scene.disk.point_field or scene.disk.turbulence)
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the next frame differs from this one without anybody touching anything."""
+        return self.is_playing or self.dragging or not self.motion.at_rest

@@ -1,0 +1,307 @@
+"""The window: Hello ImGui's runner around the picture, the panel and the keys."""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Iterable, Protocol
+
+from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the first GLFW that is loaded is the one used
+import glfw
+import moderngl
+
+from ..resources import user_config_dir
+from ..scene import Scene
+from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme
+from .panel import Panel
+from .picture import Area, Picture
+from .shortcuts import Shortcuts
+from .state import WindowState
+
+TITLE = "Blackhole GL"
+PANEL = "Parameters"
+SIZE = (1280, 800)
+_DOCK_SPACE = "MainDockSpace"
+_PANEL_SHARE = 0.30  # of the window's width
+_IDLE_FPS = 4.0  # often enough to notice an edited shader within a second
+_FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
+_LONGEST_FRAME_S = 0.5
+_RELOAD_PERIOD_S = 0.5
+
+
+class WindowError(RuntimeError):
+    """The window cannot be opened; the text says why and what mends it."""
+
+
+class Driver(Protocol):
+    """Something that drives the window in place of a user, as tests do."""
+
+    finished: bool
+
+    def register(self, window: Window) -> None:
+        """Called once, when the ImGui test engine can take tests."""
+
+
+@dataclass(frozen=True)
+class _View:
+    """The free part of the window, beside the panel: in imgui's units from the top left, and in framebuffer pixels."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+    area: Area
+
+
+def run(
+    scene: Scene,
+    *,
+    preset_names: Iterable[str] = (),
+    null_platform: bool = False,
+    size: tuple[int, int] = SIZE,
+    picture_folder: Path | None = None,
+    make_renderer: Callable[[moderngl.Context], Any] | None = None,
+    driver: Driver | None = None,
+) -> WindowState:
+    """Opens the window on `scene` and returns when it is closed.
+
+    Args:
+        preset_names: the presets that `scene` was made from, shown in the panel's pickers.
+        null_platform: no display at all: GLFW's null platform on EGL.
+        size: width and height in units of a 96 dpi screen.
+        picture_folder: where F12 puts pictures; the working folder when None.
+        make_renderer: makes the renderer from the window's context; ``render.frame.Renderer`` when None.
+        driver: drives the window through the ImGui test engine.
+
+    Returns:
+        The state at the end.
+
+    Raises:
+        WindowError: no display, or no OpenGL 3.3.
+    """
+    _open_platform(null_platform)
+    window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer)
+    params = _runner_params(window, size, null_platform)
+    if driver is not None:
+        params.use_imgui_test_engine = True
+        params.callbacks.register_tests = lambda: driver.register(window)
+    immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams())
+    try:
+        while not params.app_shall_exit and not (driver is not None and driver.finished):
+            immapp.manual_render.render()
+    finally:
+        immapp.manual_render.tear_down()
+    return window.state
+
+
+def _open_platform(null_platform: bool) -> None:
+    if null_platform:
+        glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
+    said: list[str] = []
+    glfw.set_error_callback(lambda code, text: said.append(text.decode("utf-8", "replace")))
+    if not glfw.init():
+        raise WindowError(f"no window can be opened: {said[-1] if said else 'GLFW does not start'}. Without a display, use `blackhole-gl render`.")
+    if null_platform:
+        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
+
+
+def _default_renderer(gl: moderngl.Context) -> Any:
+    from ..render.frame import Renderer
+
+    return Renderer(gl)
+
+
+def _runner_params(window: Window, size: tuple[int, int], null_platform: bool) -> hello_imgui.RunnerParams:
+    params = hello_imgui.RunnerParams()
+    params.app_window_params.window_title = TITLE
+    params.app_window_params.window_geometry.size = size
+    params.ini_disable = True
+    params.imgui_window_params.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
+    # Multisampling would only smooth the panel's edges, and costs a factor of 3 on software renderers.
+    params.renderer_backend_options.open_gl_options = hello_imgui.OpenGlOptions(
+        glsl_version="330", major_version=3, minor_version=3, use_core_profile=True, use_forward_compat=True, anti_aliasing_samples=0
+    )
+    params.fps_idling.fps_idle = _IDLE_FPS
+    params.fps_idling.time_active_after_last_event = 0.5
+    params.fps_idling.enable_idling = not null_platform
+    params.docking_params.main_dock_space_node_flags = (imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.auto_hide_tab_bar).value
+    params.docking_params.docking_splits = [hello_imgui.DockingSplit(_DOCK_SPACE, "Right", imgui.Dir.right, _PANEL_SHARE)]
+    panel = hello_imgui.DockableWindow(PANEL, "Right", window.draw_panel)
+    panel.imgui_window_flags = imgui.WindowFlags_.no_nav_inputs.value  # TAB belongs to the key table
+    panel.can_be_closed = False  # TAB hides it, and is the way to get it back
+    params.docking_params.dockable_windows = [panel]
+    callbacks = params.callbacks
+    callbacks.setup_imgui_config = _setup_imgui
+    callbacks.setup_imgui_style = theme.apply
+    callbacks.post_init = window.start
+    callbacks.pre_new_frame = window.before_frame
+    callbacks.show_gui = window.frame
+    callbacks.custom_background = window.draw_picture
+    return params
+
+
+def _setup_imgui() -> None:
+    hello_imgui.imgui_default_settings.setup_default_imgui_config()
+    # With keyboard navigation SPACE and the arrows would move a focus rectangle about the panel.
+    io = imgui.get_io()
+    io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value
+
+
+class Window:
+    """The callbacks of the runner, around one state.
+
+    Args:
+        scene: the first scene.
+        preset_names: what it was made from.
+        picture_folder: where pictures go.
+        make_renderer: see `run`.
+    """
+
+    def __init__(self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any]):
+        self.state = WindowState.start(scene, preset_switch.chosen_among(preset_names))
+        self.key_file = user_config_dir() / "keys.toml"
+        self.bindings = self._read_keys()
+        self.picture: Picture | None = None
+        self._shortcuts = Shortcuts(self.bindings)
+        self._panel = Panel()
+        self._picture_folder = picture_folder
+        self._make_renderer = make_renderer
+        self._next_reload = 0.0
+        self._was_moving = False
+
+    def _read_keys(self) -> keys.Bindings:
+        try:
+            return keys.load_bindings(self.key_file)
+        except keys.KeysError as error:
+            self.state.complain(f"{error}. The keys are as they come.")
+            return keys.default_bindings()
+
+    # --- callbacks, in the order of a frame ---
+
+    def start(self) -> None:
+        """Once, when the context is there."""
+        self._gl = moderngl.create_context(require=330)
+        self.picture = Picture(self._gl, self._make_renderer(self._gl))
+
+    def before_frame(self) -> None:
+        """Before imgui begins a frame: what the runner is to do follows the state."""
+        params = hello_imgui.get_runner_params()
+        params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
+        params.fps_idling.enable_idling = not self.state.is_moving
+
+    def frame(self) -> None:
+        """The hand's doings, and what is written over the picture."""
+        state, view = self.state, self.view()
+        dt = min(imgui.get_io().delta_time, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
+        pressed, held = self._shortcuts.poll()
+        for name in pressed:
+            self.do(name)
+        commands.advance(state, commands.Hand(*self._mouse(view), held), dt)
+        self._was_moving = state.is_moving or bool(held)
+        self._reload_shaders()
+        em = hello_imgui.em_size()
+        if self.picture is not None:
+            overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        overlay.messages(state, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
+        help_window.draw(state, self.bindings, self.key_file)
+
+    def draw_panel(self) -> None:
+        """The panel's own window."""
+        self._panel.draw(self.state)
+
+    def draw_picture(self) -> None:
+        """Renders what changed and fills the free part of the window."""
+        view = self.view()
+        if view.area.is_empty or glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED):
+            return
+        window = self._gl.detect_framebuffer()
+        self._render(view.area)
+        self.picture.draw(window, view.area)
+
+    # --- parts of a frame ---
+
+    def do(self, action: str) -> None:
+        """Does what the key of `action` does."""
+        state = self.state
+        if action == "save":
+            scene_files.save(state)
+        elif action == "copy":
+            imgui.set_clipboard_text(scene_files.text_of(state))
+        elif action == "paste":
+            scene_files.take(state, imgui.get_clipboard_text())
+        else:
+            commands.COMMANDS[action](state)
+        if action == "full_screen":
+            _set_full_screen(state.full_screen)
+
+    def view(self) -> _View:
+        """Where the picture goes now."""
+        io = imgui.get_io()
+        docking = hello_imgui.get_runner_params().docking_params
+        dock_space = docking.dock_space_id_from_name(_DOCK_SPACE)
+        node = imgui.internal.dock_builder_get_central_node(dock_space) if dock_space else None
+        left, top, width, height = (node.pos.x, node.pos.y, node.size.x, node.size.y) if node else (0.0, 0.0, io.display_size.x, io.display_size.y)
+        across, up = io.display_framebuffer_scale.x, io.display_framebuffer_scale.y
+        x, right = round(left * across), round((left + width) * across)
+        y, ceiling = round((io.display_size.y - top - height) * up), round((io.display_size.y - top) * up)
+        return _View(left, top, width, height, Area(x, y, right - x, ceiling - y))
+
+    def _mouse(self, view: _View) -> tuple[tuple[float, float], float]:
+        """The drag over the picture, in heights of the picture, and the wheel's notches."""
+        io, state = imgui.get_io(), self.state
+        over_picture = not io.want_capture_mouse
+        if imgui.is_mouse_clicked(imgui.MouseButton_.left) and over_picture:
+            state.dragging = True
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            state.dragging = False
+        wheel = io.mouse_wheel if over_picture else 0.0
+        if not state.dragging or view.height < 1.0:
+            return (0.0, 0.0), wheel
+        return (io.mouse_delta.x / view.height, io.mouse_delta.y / view.height), wheel
+
+    def _render(self, area: Area) -> None:
+        state = self.state
+        moving = state.is_moving and not state.picture_wanted
+        try:
+            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=not state.motion.at_rest or state.dragging)
+        except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
+            state.render_error = str(error) or type(error).__name__
+            traceback.print_exc()
+            return
+        if rendered:
+            state.render_error = None
+        if state.show_overlay and not (rendered and self.picture.report.traced):
+            self.picture.count_rays()
+        if state.picture_wanted:
+            state.picture_wanted = False
+            scene_files.save_picture(state, self.picture.read_rgb8(), self._picture_folder)
+
+    def _reload_shaders(self) -> None:
+        """Takes up shader files that were edited. The mistakes in them are shown; the programs they would replace stay."""
+        now = glfw.get_time()
+        if now < self._next_reload:
+            return
+        self._next_reload = now + _RELOAD_PERIOD_S
+        programs = self.picture.renderer.programs
+        before = programs.errors
+        try:
+            errors = programs.reload()
+        except OSError:  # an editor is replacing the file: the next look finds it whole
+            return
+        if errors is before:
+            return  # the very list: no file has changed
+        self.state.shader_error = "\n\n".join(str(error) for error in errors) or None
+        self.picture.forget()
+
+
+def _glfw_window() -> Any:
+    from imgui_bundle.glfw_utils import glfw_window_hello_imgui
+
+    return glfw_window_hello_imgui()
+
+
+def _set_full_screen(on: bool) -> None:
+    modes = hello_imgui.FullScreenMode
+    geometry = hello_imgui.get_runner_params().app_window_params.window_geometry
+    geometry.full_screen_mode = modes.full_monitor_work_area if on else modes.no_full_screen

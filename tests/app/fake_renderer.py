@@ -1,0 +1,52 @@
+"""A renderer of flat colours, for tests of the window that do not look at physics."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Report:
+    trace_ms: float = 1.0
+    shade_ms: float = 1.0
+    post_ms: float = 1.0
+    traced: bool = False
+    method: str = "flat colour"
+
+
+@dataclass(frozen=True)
+class Hits:
+    """As `blackhole_gl.render.hit_map.HitArrays`."""
+
+    fate = np.ones((2, 2), int)
+    steps = np.full((2, 2), 10)
+
+
+class FakePrograms:
+    """Programs that an edit of a shader would change; a test puts mistakes in."""
+
+    def __init__(self):
+        self.errors = []
+
+    def reload(self):
+        return self.errors
+
+
+class FakeRenderer:
+    """Keeps what it was asked for and fills the target with a colour that depends on the camera's azimuth."""
+
+    def __init__(self, gl):
+        self.calls = []
+        self.programs = FakePrograms()
+        self.fail = None
+
+    def render(self, scene, time, size, target=None, *, measure=False):
+        if self.fail is not None:
+            raise self.fail
+        self.calls.append((scene, time, size))
+        target.use()
+        target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
+        return Report()
+
+    def hits(self):
+        return Hits()

@@ -1,0 +1,269 @@
+"""What a user does in the window, and what must come of it. Items are found by name, never by place.
+
+Each function takes `Hands` and raises AssertionError when something is not as it should be. ``drive.py`` runs them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+from blackhole_gl import presets
+from blackhole_gl.app.window import PANEL, Window
+from blackhole_gl.scene import Scene
+
+Key = imgui.Key
+
+
+class Hands:
+    """Mouse and keyboard, and what they find."""
+
+    def __init__(self, context, window: Window, folder: Path):
+        self.context, self.window, self.folder = context, window, folder
+        context.yield_(3)
+
+    @property
+    def state(self):
+        return self.window.state
+
+    @property
+    def scene(self) -> Scene:
+        return self.state.scene
+
+    def settle(self) -> None:
+        """Waits until the camera rests."""
+        for _ in range(400):
+            self.context.yield_()
+            if self.state.motion.at_rest:
+                return
+        raise AssertionError("the camera does not come to rest")
+
+    def to_picture(self) -> tuple[float, float]:
+        """Moves the mouse to the picture's centre and returns it."""
+        view = self.window.view()
+        centre = (view.left + 0.5 * view.width, view.top + 0.5 * view.height)
+        self.context.mouse_move_to_pos(centre)
+        return centre
+
+    def press(self, chord: int) -> None:
+        self.context.key_press(chord)
+        self.context.yield_(2)
+
+    def item(self, name: str) -> str:
+        """The path of the panel's item `name`, wherever in the panel it lies."""
+        self.context.scroll_to_top(f"//{PANEL}")  # a table that is out of sight has no items
+        return f"//{PANEL}/**/{name}"
+
+    def click(self, name: str) -> None:
+        self.context.item_click(self.item(name))
+        self.context.yield_(2)
+
+    def choose(self, combo: str, option: str) -> None:
+        self.context.scroll_to_top(f"//{PANEL}")
+        self.context.item_click(f"//{PANEL}/pickers/{combo}")  # a closed combo has no label that a search could find
+        self.context.item_click(f"//##Combo_00/{option}")
+        self.context.yield_(2)
+
+
+def orbit_by_drag(hands: Hands) -> None:
+    before = hands.scene.camera
+    x, y = hands.to_picture()
+    hands.context.mouse_down(0)
+    hands.context.mouse_move_to_pos((x + 120, y + 60))
+    hands.context.mouse_up(0)
+    hands.settle()
+    after = hands.scene.camera
+    height = hands.window.view().height
+    assert abs((before.azimuth_deg - after.azimuth_deg) - 180.0 * 120 / height) < 2.0, after
+    assert abs((before.inclination_deg - after.inclination_deg) - 180.0 * 60 / height) < 2.0, after
+    assert after.distance == before.distance
+
+
+def drag_on_the_panel_does_not_orbit(hands: Hands) -> None:
+    before = hands.scene.camera
+    hands.context.item_drag_with_delta(hands.item("##hole.spin"), (-40.0, 0.0))
+    hands.settle()
+    assert hands.scene.camera == before
+    assert hands.scene.hole.spin != 0.9
+
+
+def drag_stops_at_the_pole(hands: Hands) -> None:
+    x, y = hands.to_picture()
+    hands.context.mouse_down(0)
+    hands.context.mouse_move_to_pos((x, y + 2000))
+    hands.context.mouse_up(0)
+    hands.settle()
+    assert hands.scene.camera.inclination_deg == 0.0
+
+
+def zoom_by_wheel(hands: Hands) -> None:
+    before = hands.scene.camera.distance
+    hands.to_picture()
+    hands.context.mouse_wheel_y(3.0)
+    hands.settle()
+    nearer = hands.scene.camera.distance
+    assert 1.0 < nearer < before
+    hands.context.mouse_wheel_y(-3.0)
+    hands.settle()
+    assert abs(hands.scene.camera.distance - before) < 1e-3 * before
+
+
+def arrows_and_reset(hands: Hands) -> None:
+    before = hands.scene.camera
+    hands.context.key_hold(Key.left_arrow, 0.3)
+    hands.context.key_hold(Key.up_arrow, 0.2)
+    hands.context.key_hold(Key.equal, 0.2)
+    hands.settle()
+    moved = hands.scene.camera
+    assert moved.azimuth_deg < before.azimuth_deg and moved.inclination_deg < before.inclination_deg and moved.distance < before.distance
+    hands.press(Key.r)
+    hands.settle()
+    after = hands.scene.camera
+    assert abs(after.azimuth_deg) < 1e-6 and abs(after.inclination_deg - 80.0) < 1e-6 and abs(after.distance - before.distance) < 1e-6
+
+
+def keys_switch(hands: Hands) -> None:
+    state = hands.state
+    hands.press(Key.space)
+    assert not hands.scene.disk.enabled
+    hands.press(Key.space)
+    assert hands.scene.disk.enabled
+    hands.press(Key.s)
+    assert hands.scene.hole.spin == 0.0
+    hands.press(Key.s)
+    assert hands.scene.hole.spin == 0.9 and hands.scene.rays.model == "kerr"
+    hands.press(Key.p)
+    paused_at = state.time
+    hands.context.yield_(5)
+    assert state.paused and state.time == paused_at
+    hands.press(Key.p)
+    hands.context.yield_(5)
+    assert state.time > paused_at
+    hands.press(Key.o)
+    assert not state.show_overlay
+
+
+def help_window(hands: Hands) -> None:
+    hands.press(Key.h)
+    assert hands.context.item_exists("//Help/keys") or hands.state.show_help
+    hands.press(Key.escape)
+    assert not hands.state.show_help
+    hands.press(Key.f1)
+    assert hands.state.show_help
+    hands.press(Key.f1)
+    assert not hands.state.show_help
+
+
+def tab_hides_the_panel(hands: Hands) -> None:
+    narrow = hands.window.view().width
+    hands.press(Key.tab)
+    hands.context.yield_(3)
+    assert hands.window.view().width > narrow + 100, "the picture takes the panel's place"
+    hands.press(Key.tab)
+    hands.context.yield_(3)
+    assert abs(hands.window.view().width - narrow) < 2.0
+
+
+def typing_triggers_no_shortcut(hands: Hands) -> None:
+    scene = hands.scene
+    hands.click("##filter")
+    hands.context.key_chars("sphor ")
+    hands.press(Key.space)
+    hands.press(Key.s)
+    hands.press(Key.left_arrow)
+    hands.settle()
+    assert hands.scene == scene and not hands.state.show_help and not hands.state.paused
+    hands.press(Key.escape)
+    hands.press(Key.space)
+    assert not hands.scene.disk.enabled, "after ESC the keys work again, and the window is still there"
+
+
+def panel_edits_and_resets(hands: Hands) -> None:
+    hands.context.item_input_value(hands.item("##hole.gravity_strength"), 2.5)
+    assert hands.scene.hole.gravity_strength == 2.5
+    hands.context.yield_(2)
+    hands.click("##departs hole.gravity_strength")
+    assert hands.scene.hole.gravity_strength == 1.0
+    hands.context.item_input_value(hands.item("##camera.distance"), 33.25)
+    assert hands.scene.camera.distance == 33.25
+    hands.settle()
+    assert hands.scene.camera.distance == 33.25, "the camera stays where it was typed to"
+    hands.context.item_double_click(hands.item("Distance##name camera.distance"))
+    assert hands.scene.camera.distance == 20.0
+    hands.click("far##infinite camera.distance")
+    assert hands.scene.camera.distance == float("inf")
+    hands.click("far##infinite camera.distance")
+    assert hands.scene.camera.distance == 20.0
+
+
+def presets_switched(hands: Hands) -> None:
+    hands.context.item_input_value(hands.item("##camera.inclination_deg"), 60.0)
+    hands.choose("##Look preset", "Particle Storm##particle_storm")
+    assert hands.state.chosen["look"] == "particle_storm"
+    assert hands.scene.disk.noise_scale == 1.10
+    assert hands.scene.camera.inclination_deg == 60.0, "a look leaves the camera alone"
+    hands.choose("##Physics preset", "Schwarzschild##schwarzschild")
+    assert hands.scene.hole.spin == 0.0 and hands.scene.camera.inclination_deg == 80.0
+    assert hands.scene.disk.noise_scale == 1.10, "physics leaves the look alone"
+
+
+def save_and_load(hands: Hands) -> None:
+    path = hands.folder / "mine.toml"
+    hands.context.item_input_value(hands.item("##file"), str(path))
+    hands.context.item_input_value(hands.item("##disk.outer_radius"), 7.5)
+    hands.click("Save")
+    saved = hands.scene
+    assert presets.load([path]) == saved
+    hands.context.item_input_value(hands.item("##disk.outer_radius"), 9.0)
+    hands.click("Save")
+    assert presets.load([path]) == saved, "the first click on Save only asks"
+    hands.click("Load")
+    assert hands.scene == saved
+    path.write_text("[disk]\nouter_radius = 900\n")
+    hands.click("Load")
+    assert hands.state.notice.is_error and "outer_radius" in hands.state.notice.text
+    assert hands.scene == saved
+
+
+def copy_and_paste(hands: Hands) -> None:
+    hands.click("Copy as TOML")
+    text = imgui.get_clipboard_text()
+    copied = hands.scene
+    hands.press(Key.s)
+    assert hands.scene != copied
+    imgui.set_clipboard_text(text)
+    hands.click("Paste TOML")
+    assert hands.scene == copied
+    imgui.set_clipboard_text("no preset = = at all")
+    hands.click("Paste TOML")
+    assert hands.state.notice.is_error and hands.scene == copied
+
+
+def picture_saved(hands: Hands) -> None:
+    hands.press(Key.f12)
+    hands.context.yield_(3)
+    (path,) = hands.folder.glob("*.png")
+    assert presets.from_png(path) == hands.scene
+
+
+def renderer_failure_is_shown(hands: Hands) -> None:
+    hands.press(Key.p)
+    hands.window.picture.renderer.fail = RuntimeError("trace.frag, line 7: no such thing")
+    hands.press(Key.s)
+    hands.context.yield_(3)
+    assert "trace.frag, line 7" in hands.state.render_error
+    hands.window.picture.renderer.fail = None
+    hands.press(Key.s)
+    hands.context.yield_(3)
+    assert hands.state.render_error is None
+
+
+def still_picture_is_kept(hands: Hands) -> None:
+    hands.press(Key.p)
+    hands.settle()
+    hands.context.yield_(5)
+    drawn = len(hands.window.picture.renderer.calls)
+    hands.context.yield_(20)
+    assert len(hands.window.picture.renderer.calls) == drawn
+    assert not hands.state.is_moving

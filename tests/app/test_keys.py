@@ -1,0 +1,58 @@
+"""The key table and the file that changes it."""
+
+import pytest
+
+from blackhole_gl.app.commands import COMMANDS
+from blackhole_gl.app.keys import ACTIONS, Chord, KeysError, default_bindings, load_bindings, parse_chord, template
+
+
+def test_no_file_gives_the_defaults(tmp_path):
+    assert load_bindings(tmp_path / "keys.toml") == default_bindings()
+
+
+def test_template_says_the_defaults(tmp_path):
+    file = tmp_path / "keys.toml"
+    file.write_text(template(), encoding="utf-8")
+    assert load_bindings(file) == default_bindings()
+
+
+def test_named_actions_change_and_others_stay(tmp_path):
+    file = tmp_path / "keys.toml"
+    file.write_text('disk = "ctrl+shift+d"\nspin = []\nzoom_in = ["PLUS", "PAGE_UP"]\n')
+    bindings = load_bindings(file)
+    assert bindings["disk"] == (Chord("D", ("CTRL", "SHIFT")),)
+    assert bindings["spin"] == ()
+    assert bindings["zoom_in"] == (Chord("PLUS"), Chord("PAGE_UP"))
+    assert bindings["pause"] == default_bindings()["pause"]
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ('dsik = "A"', ("dsik", "did you mean disk")),
+        ('disk = "SPACEBAR"', ("disk", "SPACEBAR", "did you mean SPACE")),
+        ('disk = "HYPER+A"', ("disk", "HYPER", "CTRL")),
+        ("disk = 3", ("disk", "got 3")),
+        ('disk = "P"', ("pause", "P already belongs to disk")),
+        ('disk = "ESC"', ("disk", "ESC")),
+        ("disk = ", ("cannot be read",)),
+    ],
+)
+def test_mistakes_name_file_and_entry(tmp_path, text, words):
+    file = tmp_path / "keys.toml"
+    file.write_text(text)
+    with pytest.raises(KeysError) as error:
+        load_bindings(file)
+    for word in (str(file), *words):
+        assert word in str(error.value)
+
+
+def test_every_action_does_something():
+    elsewhere = {"save", "copy", "paste"}  # they need the clipboard or a file; see window.py
+    assert {action.name for action in ACTIONS if not action.held} == set(COMMANDS) | elsewhere
+
+
+def test_chords_read_back():
+    for chords in default_bindings().values():
+        for chord in chords:
+            assert parse_chord(str(chord)) == chord

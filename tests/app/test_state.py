@@ -1,0 +1,123 @@
+"""What commands, presets and files do to the window's state, without a window."""
+
+import math
+
+import pytest
+
+from blackhole_gl import presets
+from blackhole_gl.app import commands, preset_switch, scene_files
+from blackhole_gl.app.commands import Hand, advance
+from blackhole_gl.app.state import NOTICE_SECONDS, WindowState
+from blackhole_gl.scene import Scene
+
+
+@pytest.fixture
+def state(tmp_path, monkeypatch):
+    monkeypatch.setenv("BLACKHOLE_GL_CONFIG_DIR", str(tmp_path))
+    return WindowState.start(presets.load(["kerr"]), {"physics": "kerr"})
+
+
+def test_spin_key_goes_to_schwarzschild_and_back(state):
+    state.change({"hole.spin": -0.3, "rays.model": "kerr_like"})
+    commands.toggle_spin(state)
+    assert state.scene.hole.spin == 0.0
+    commands.toggle_spin(state)
+    assert state.scene.hole.spin == -0.3 and state.scene.rays.model == "kerr_like"
+
+
+def test_spin_key_leaves_a_model_that_cannot_spin():
+    state = WindowState.start(Scene().with_values({"rays.model": "schwarzschild"}))
+    commands.toggle_spin(state)
+    assert state.scene.hole.spin > 0 and state.scene.rays.model == "kerr"
+    commands.toggle_spin(state)
+    assert state.scene.rays.model == "schwarzschild"
+
+
+def test_refused_value_is_a_notice(state):
+    before = state.scene
+    state.change({"hole.spin": 7.0})
+    assert state.scene == before
+    assert state.notice.is_error and "hole.spin" in state.notice.text
+    advance(state, Hand(), 10 * NOTICE_SECONDS)
+    assert state.notice is not None, "an error stays"
+
+
+def test_word_of_success_leaves(state):
+    state.say("Saved")
+    advance(state, Hand(), 0.9 * NOTICE_SECONDS)
+    assert state.notice is not None
+    advance(state, Hand(), 0.2 * NOTICE_SECONDS)
+    assert state.notice is None
+
+
+def test_reset_goes_the_short_way_round(state):
+    state.change({"camera.azimuth_deg": 170.0})
+    advance(state, Hand(held=("orbit_right",)), 1.0)
+    commands.reset_camera(state)
+    assert abs(state.motion.target.azimuth - state.motion.current.azimuth) <= 180.0
+    for _ in range(300):
+        advance(state, Hand(), 1 / 60)
+    assert state.scene.camera == state.home.camera
+
+
+def test_reset_from_infinity(state):
+    state.change({"camera.distance": math.inf})
+    commands.reset_camera(state)
+    assert state.scene.camera == state.home.camera
+
+
+def test_pause_stops_time(state):
+    advance(state, Hand(), 0.5)
+    assert state.time == pytest.approx(0.5 * state.scene.playback.rate)
+    commands.toggle_pause(state)
+    advance(state, Hand(), 0.5)
+    assert state.time == pytest.approx(0.5 * state.scene.playback.rate)
+
+
+def test_look_keeps_camera_and_hand_made_changes(state):
+    state.change({"camera.inclination_deg": 33.0, "disk.outer_radius": 14.0})
+    preset_switch.pick(state, "look", "particle_storm")
+    assert state.scene.camera.inclination_deg == 33.0 and state.scene.disk.outer_radius == 14.0
+    assert state.scene.disk.noise_scale == 1.10
+    assert state.home.camera.inclination_deg != 33.0
+
+
+def test_what_only_the_old_look_said_goes_with_it(state, tmp_path):
+    folder = presets.user_presets_dir()
+    folder.mkdir(parents=True)
+    (folder / "odd.toml").write_text('group = "look"\n[post]\nexposure = 3.0\n')
+    before = state.scene.post.exposure
+    preset_switch.pick(state, "look", "odd")
+    assert state.scene.post.exposure == 3.0
+    preset_switch.pick(state, "look", "minimal_bloom")
+    assert state.scene.post.exposure == before
+
+
+def test_every_shipped_preset_can_be_picked(state):
+    for info in presets.available():
+        preset_switch.pick(state, info.group, info.name)
+        assert state.notice is None or not state.notice.is_error, state.notice
+        assert state.chosen[info.group] == info.name
+
+
+def test_a_whole_scene_replaces_all(state):
+    state.change({"post.exposure": 2.0})
+    preset_switch.pick(state, "scene", "luminet_1979")
+    assert state.scene == presets.load(["luminet_1979"]) == state.home
+    assert state.chosen == {"scene": "luminet_1979"}
+
+
+def test_missing_preset_is_a_notice(state):
+    preset_switch.pick(state, "look", "no_such_look")
+    assert state.notice.is_error and "no_such_look" in state.notice.text
+
+
+def test_names_in_the_file_field(state, tmp_path):
+    assert scene_files.path_of("mine") == presets.user_presets_dir() / "mine.toml"
+    assert scene_files.path_of(str(tmp_path / "a.png")) == tmp_path / "a.png"
+    state.file = "  "
+    scene_files.save(state)
+    assert state.notice.is_error
+    state.file = "nowhere"
+    scene_files.load(state)
+    assert state.notice.is_error and "nowhere" in state.notice.text
