@@ -1,0 +1,1 @@
+"""GLSL text: composition from files, and uniform blocks made from one declaration."""

@@ -1,0 +1,158 @@
+"""Shader text from files: includes, slots and switches, with a map from every output line back to its file and line.
+
+Directives, each alone on its line and never acted on inside a comment:
+
+``#include "common/noise.glsl"``      the file (path below ``shaders/``), the first time it is asked for
+``#slot ray_model``                   the file of the plug-in chosen for a slot
+``#slots disk_layer``                 the files of all plug-ins chosen for a slot
+``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` replaced
+``#blocks``                           the uniform blocks
+``#defines``                          the switches that the text mentions
+
+moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses the line numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Mapping, Sequence
+
+_DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines)\b\s*(.*)$")
+_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_LOG_LINE = (
+    re.compile(r"^\d+:(?P<line>\d+)\(\d+\): (?P<text>.*)$"),  # Mesa
+    re.compile(r"^\d+\((?P<line>\d+)\) : (?P<text>.*)$"),  # NVIDIA
+    re.compile(r"^(?P<kind>ERROR|WARNING): \d+:(?P<line>\d+): (?P<text>.*)$"),  # AMD, Intel, Apple
+)
+
+
+class ShaderError(Exception):
+    """A mistake in shader text.
+
+    Attributes:
+        message: what is wrong.
+        file: path below ``shaders/``; empty when no place is known.
+        line: 1-based line in that file; 0 when no place is known.
+    """
+
+    def __init__(self, message: str, file: str = "", line: int = 0):
+        place = f"{file}:{line}: " if file else ""
+        super().__init__(place + message)
+        self.message, self.file, self.line = message, file, line
+
+
+@dataclass(frozen=True)
+class Composed:
+    """Composed shader text.
+
+    Attributes:
+        text: GLSL for the driver.
+        places: for each line of `text`, its (file, 1-based line).
+        defines: the switches that the text mentions, with their values.
+    """
+
+    text: str
+    places: tuple[tuple[str, int], ...]
+    defines: Mapping[str, int]
+
+    def explain(self, log: str) -> ShaderError:
+        """The driver's compile `log` as an error that names the author's file and line (the first with a place)."""
+        rewritten, first = [], None
+        for line in log.splitlines():
+            match = next((m for m in (pattern.match(line.strip()) for pattern in _LOG_LINE) if m), None)
+            if match is None:
+                continue
+            file, number = self.place(int(match["line"]))
+            rewritten.append(f"{file}:{number}: {match['text']}")
+            if first is None and "warning" not in line.lower():
+                first = (match["text"], file, number)
+        if first is None:
+            return ShaderError(log.strip())
+        rest = [line for line in rewritten if line != f"{first[1]}:{first[2]}: {first[0]}"]
+        return ShaderError("\n".join([first[0], *rest]), first[1], first[2])
+
+    def place(self, line: int) -> tuple[str, int]:
+        """(file, line) of the 1-based output `line`."""
+        return self.places[line - 1] if 0 < line <= len(self.places) else ("", 0)
+
+
+def compose(
+    root: Path,
+    path: str,
+    *,
+    chosen: Mapping[str, Sequence[str]] | None = None,
+    switches: Mapping[str, int] | None = None,
+    blocks: str = "",
+) -> Composed:
+    """The text of ``root/path`` with all directives carried out.
+
+    Args:
+        root: the shader folder.
+        path: path below it.
+        chosen: slot → paths (below `root`) of the chosen plug-ins.
+        switches: name → value of every possible ``#define``; only those mentioned are written.
+        blocks: GLSL that replaces ``#blocks``.
+
+    Raises:
+        ShaderError: a file or a slot is missing, or a directive is malformed.
+    """
+    lines = list(_expand(root, path, chosen or {}, blocks, set(), ("", 0)))
+    words = {word for text, _ in lines for word in _WORD.findall(text)}
+    used = {name: value for name, value in (switches or {}).items() if name in words}
+    out: list[tuple[str, tuple[str, int]]] = []
+    for text, place in lines:
+        if text.strip() == "#defines":
+            out.extend((f"#define {name} {value}", place) for name, value in used.items())
+        else:
+            out.append((text, place))
+    return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used)
+
+
+def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], blocks: str, seen: set[str], asked_at: tuple[str, int]):
+    if path in seen:
+        return
+    seen.add(path)
+    try:
+        source = (root / path).read_text(encoding="utf-8")
+    except OSError:
+        raise ShaderError(f"there is no shader file {path}", *asked_at) from None
+    in_comment = False
+    for number, text in enumerate(source.splitlines(), start=1):
+        place = (path, number)
+        match = None if in_comment else _DIRECTIVE.match(text)
+        in_comment = _comment_open(text, in_comment)
+        if match is None or match[1] == "defines":
+            yield text, place
+        elif match[1] == "blocks":
+            yield from ((line, place) for line in blocks.splitlines())
+        elif match[1] == "include":
+            name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
+            if name is None:
+                raise ShaderError('write #include "path below shaders/"', *place)
+            yield from _expand(root, name[1], chosen, blocks, seen, place)
+        else:
+            slot, _, template = match[2].partition(":")
+            if slot.strip() not in chosen:
+                raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
+            for plug_in in chosen[slot.strip()]:
+                if match[1] == "each":
+                    yield template.strip().replace("$key", Path(plug_in).stem), place
+                else:
+                    yield from _expand(root, plug_in, chosen, blocks, seen, place)
+
+
+def _comment_open(text: str, is_open: bool) -> bool:
+    """Whether a block comment is open after `text`."""
+    while True:
+        if is_open:
+            end = text.find("*/")
+            if end < 0:
+                return True
+            text, is_open = text[end + 2 :], False
+        else:
+            start, line_comment = text.find("/*"), text.find("//")
+            if start < 0 or 0 <= line_comment < start:
+                return False
+            text, is_open = text[start + 2 :], True

@@ -1,0 +1,121 @@
+"""Scene → RayPlan: which model and method trace it, with which steps, and the reason for each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from . import catalogue, observer, relativity
+from .catalogue import PlugIn
+from .scene import Scene, SceneError
+
+# A ray that comes near the critical curve winds round the hole; one pixel in a 4K picture lies closer than 1e-7 to it only by
+# rare chance, and 3 turns reach that: each turn takes a factor e^{2π} of distance.
+SPARE_TURNS = 3.0
+
+# Beyond this radius (r_s, times the gravity strength) an outward ray is finished in closed form; see common/central_orbit.glsl.
+MARCH_BOUND = 15.0
+
+# The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge.
+INNERMOST_CROSSING = 1.02
+
+
+@dataclass(frozen=True)
+class RayPlan:
+    """How a scene's rays are traced.
+
+    Attributes:
+        model, integrator, step_control: plug-ins; the last two are None for closed models.
+        step_length: Δt₀ in r_s, as used.
+        step_angle: κ in radians, as used.
+        max_steps: no ray takes more.
+        orders: crossings of the disk's plane that are kept, 0 without a disk.
+        reasons: why, a sentence each, for people.
+    """
+
+    model: PlugIn
+    integrator: PlugIn | None
+    step_control: PlugIn | None
+    step_length: float
+    step_angle: float
+    max_steps: int
+    orders: int
+    reasons: tuple[str, ...]
+
+    @property
+    def evaluations_per_step(self) -> int:
+        """Right-hand-side evaluations in one step; 0 for closed models."""
+        return self.integrator.traits["evaluations"] if self.integrator else 0
+
+    @property
+    def method(self) -> str:
+        """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
+        if self.integrator is None:
+            return self.model.key
+        step = f"κ = {self.step_angle:.3g}" if self.step_control.key == "mino" else f"{self.step_control.key}, Δt₀ = {self.step_length:.3g}"
+        return f"{self.model.key}, {self.integrator.key}, {step}"
+
+
+def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
+    """The plan for `scene`.
+
+    Args:
+        keep_crossings: keep crossings of the disk's plane even where the scene shows no disk.
+
+    Raises:
+        SceneError: the chosen model, integrator and step control do not fit together.
+    """
+    model = observer.ray_model(scene)
+    reasons = [f"{model.key}: " + ("lensing is off" if not scene.rays.lensing else "chosen by rays.model")]
+    orders = scene.rays.orders if scene.disk.enabled or keep_crossings else 0
+    if orders == 0:
+        reasons.append("no crossings are looked for: the disk is off")
+    if model.traits["kind"] == "closed":
+        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, tuple(reasons))
+    control = scene.rays.step_control
+    if catalogue.reasons_against(model.key, scene.rays.integrator, control):
+        reasons.append(f"steps by {model.traits['step_control']}: {control} does not fit {model.key}")
+        control = model.traits["step_control"]
+    against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
+    if against:
+        raise SceneError("rays.integrator", "; ".join(against))
+    stretch = _steps_needed(scene, control) / scene.rays.max_steps
+    if stretch > 1.0:
+        reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
+    stretch = max(1.0, stretch)
+    return RayPlan(
+        model,
+        catalogue.plug_ins("integrator")[scene.rays.integrator],
+        catalogue.plug_ins("step_control")[control],
+        scene.rays.step_length * stretch,
+        scene.rays.step_angle * stretch,
+        scene.rays.max_steps,
+        orders,
+        tuple(reasons),
+    )
+
+
+def march_bound(scene: Scene) -> float:
+    """Radius in r_s beyond which outward rays are finished in closed form."""
+    return MARCH_BOUND * max(1.0, scene.hole.gravity_strength)
+
+
+def _steps_needed(scene: Scene, control: str) -> float:
+    """Steps of the asked length that take a ray in from the camera, `SPARE_TURNS` round the hole, and out again."""
+    if control == "mino":
+        return (math.pi + 2.0 * math.pi * SPARE_TURNS) / scene.rays.step_angle
+    bound = march_bound(scene)
+    far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
+    photon_sphere = 1.5 * scene.hole.gravity_strength
+    turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere
+    if control == "fixed":
+        return (far + 2.0 * bound + SPARE_TURNS * turn) / scene.rays.step_length
+    legs = math.log(max(far / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere)
+    return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / scene.rays.step_length
+
+
+def effective_disk_radii(scene: Scene) -> tuple[float, float]:
+    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
+    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
+    inner = max(scene.disk.inner_radius, isco)
+    return inner, max(scene.disk.outer_radius, inner * 1.0001)

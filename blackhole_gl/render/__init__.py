@@ -1,0 +1,1 @@
+"""Pictures from scenes: the passes and the GL objects they need."""

@@ -1,0 +1,94 @@
+"""A GL context without a window: EGL first, OSMesa through GLFW's null platform second."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+
+import moderngl
+
+BACKENDS = ("egl", "osmesa")
+ENVIRONMENT = "BLACKHOLE_GL_BACKEND"
+INSTALL_LINE = "apt-get install -y --no-install-recommends libegl1 libgl1"
+OSMESA_LINE = "apt-get install -y --no-install-recommends libosmesa6"
+
+
+class ContextError(RuntimeError):
+    """No GL context could be made; the text says what was tried and the line that mends it."""
+
+
+def create_headless(backend: str = "auto") -> moderngl.Context:
+    """A GL 3.3 core context that needs no display.
+
+    Args:
+        backend: ``egl``, ``osmesa`` or ``auto``; auto takes the environment variable BLACKHOLE_GL_BACKEND, or the first that works.
+
+    Raises:
+        ContextError: none could be made.
+        ValueError: an unknown backend.
+    """
+    chosen = os.environ.get(ENVIRONMENT, "auto") if backend == "auto" else backend
+    if chosen not in (*BACKENDS, "auto"):
+        raise ValueError(f"backend: got {chosen!r}; allowed is one of auto, {', '.join(BACKENDS)}")
+    failures = []
+    for name in BACKENDS if chosen == "auto" else (chosen,):
+        try:
+            return _MAKERS[name]()
+        except Exception as error:  # whatever a GL loader throws, the next way is tried and the reason is kept
+            failures.append(f"{name}: {error}")
+    raise ContextError(
+        "no OpenGL 3.3 context without a display could be made (" + "; ".join(failures) + f"). On Debian or Ubuntu: {INSTALL_LINE}, or for OSMesa: {OSMESA_LINE}"
+    )
+
+
+def describe(ctx: moderngl.Context) -> str:
+    """Renderer and version, for people."""
+    return f"{ctx.info['GL_RENDERER']}, OpenGL {ctx.info['GL_VERSION']}"
+
+
+def _egl() -> moderngl.Context:
+    return moderngl.create_context(standalone=True, backend="egl", require=330)
+
+
+class _GlfwLoader:
+    """What moderngl asks of a context that GLFW made and keeps current."""
+
+    def __init__(self, glfw, window):
+        self._glfw, self._window = glfw, window
+
+    def load_opengl_function(self, name: str) -> int:
+        return ctypes.cast(self._glfw.get_proc_address(name), ctypes.c_void_p).value or 0
+
+    def __enter__(self):
+        self._glfw.make_context_current(self._window)
+        return self
+
+    def __exit__(self, *_):
+        return None
+
+    def release(self) -> None:
+        self._glfw.destroy_window(self._window)
+
+
+def _osmesa() -> moderngl.Context:
+    import glfw  # only here: rendering through EGL loads no window library
+
+    glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
+    if not glfw.init():
+        raise ContextError(f"GLFW's null platform does not start: {glfw.get_error()}")
+    for hint, value in (
+        (glfw.CONTEXT_CREATION_API, glfw.OSMESA_CONTEXT_API),
+        (glfw.VISIBLE, False),
+        (glfw.CONTEXT_VERSION_MAJOR, 3),
+        (glfw.CONTEXT_VERSION_MINOR, 3),
+        (glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE),
+    ):
+        glfw.window_hint(hint, value)
+    window = glfw.create_window(16, 16, "", None, None)
+    if not window:
+        raise ContextError("OSMesa cannot be loaded")
+    glfw.make_context_current(window)
+    return moderngl.create_context(require=330, context=_GlfwLoader(glfw, window))
+
+
+_MAKERS = {"egl": _egl, "osmesa": _osmesa}

@@ -1,0 +1,177 @@
+"""Scene + time → picture: the passes in order. Trace fills the hit map, shading reads it, post makes it a picture."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from .. import plan
+from ..scene import Scene
+from . import uniforms
+from .hit_map import HitArrays, HitMap
+from .post import PostPass
+from .programs import Programs
+from .shading import ShadePass
+
+
+@dataclass(frozen=True)
+class FrameReport:
+    """What one frame took.
+
+    Attributes:
+        trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
+        traced: whether rays were traced; False when the kept hit map served.
+        method: the plan's method in a few words.
+        reasons: why the plan chose it.
+    """
+
+    trace_ms: float
+    shade_ms: float
+    post_ms: float
+    traced: bool
+    method: str
+    reasons: tuple[str, ...]
+
+
+class Renderer:
+    """Draws scenes with one GL context.
+
+    Attributes:
+        programs: the compiled programs; ``programs.reload()`` takes up changed shader files.
+        hit_map: the last trace.
+    """
+
+    def __init__(self, ctx: moderngl.Context):
+        self.ctx = ctx
+        self.programs = Programs(ctx)
+        self.hit_map = HitMap(ctx, self.programs)
+        self._shade = ShadePass(ctx, self.programs)
+        self._post = PostPass(ctx, self.programs)
+        self._buffers: dict[str, moderngl.Buffer] = {}
+        self._radiance: moderngl.Framebuffer | None = None
+        self._picture: moderngl.Framebuffer | None = None
+
+    def render(
+        self,
+        scene: Scene,
+        time: float,
+        size: tuple[int, int],
+        target: moderngl.Framebuffer | None = None,
+        viewport: tuple[int, int, int, int] | None = None,
+        *,
+        measure: bool = False,
+    ) -> FrameReport:
+        """Draws `scene` at scene time `time` (r_s/c).
+
+        Args:
+            size: (width, height) of the picture in pixels, each at least 1.
+            target: where it goes; an own 8-bit picture, read by `read_rgb8`, when None.
+            viewport: (x, y, width, height) in the target; the whole picture at (0, 0) when None.
+            measure: wait for each pass to end, so that the report's milliseconds mean something.
+
+        Raises:
+            SceneError, ValueError: the scene cannot be drawn; the text says why.
+            ShaderError: a shader has a mistake.
+        """
+        ray_plan = plan.plan(scene)
+        stamps = [clock.perf_counter()]
+        traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0))
+        self._stamp(stamps, measure)
+        self._shade_into(scene, ray_plan, size)
+        self._stamp(stamps, measure)
+        self._post.draw(scene, ray_plan, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
+        self._stamp(stamps, measure)
+        trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
+        return FrameReport(trace_ms, shade_ms, post_ms, traced, ray_plan.method, ray_plan.reasons)
+
+    def render_supersampled(self, scene: Scene, time: float, size: tuple[int, int], samples: int) -> None:
+        """Draws `scene` into the own picture with `samples`² rays a pixel on a regular grid; their radiance is averaged."""
+        ray_plan = plan.plan(scene)
+        total = np.zeros((size[1], size[0], 4))
+        for index in range(samples * samples):
+            shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
+            self._trace(scene, ray_plan, time, size, (shift[0], shift[1]))
+            self._shade_into(scene, ray_plan, size)
+            total += self._radiance_array()
+        texture = self._radiance.color_attachments[0]
+        texture.write((total / samples**2).astype(np.float16).tobytes())
+        self._post.draw(scene, ray_plan, texture, self._own_picture(size), (0, 0, *size))
+
+    def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, plan.RayPlan]:
+        """Hits of listed local directions (N, 3) (`observer.local_directions`) by the shader that pictures use, and the plan used."""
+        ray_plan = plan.plan(scene, keep_crossings=True)
+        self._bind(scene, ray_plan, 0.0, (1, 1), (0.0, 0.0))
+        return self.hit_map.trace_listed(scene, ray_plan, directions), ray_plan
+
+    def read_rgb8(self) -> np.ndarray:
+        """The own picture as uint8 (height, width, 3), top row first."""
+        width, height = self._picture.size
+        data = np.frombuffer(self._picture.read(components=3, alignment=1), np.uint8)
+        return data.reshape(height, width, 3)[::-1].copy()
+
+    def radiance(self) -> np.ndarray:
+        """Scene-referred radiance of the last frame as float32 (height, width, 3), top row first."""
+        return self._radiance_array()[::-1, :, :3].astype(np.float32)
+
+    def hits(self) -> HitArrays:
+        """The hit map of the last frame."""
+        return self.hit_map.read()
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        self.hit_map.release()
+        self._shade.release()
+        self._post.release()
+        for framebuffer in (self._radiance, self._picture):
+            if framebuffer is not None:
+                framebuffer.color_attachments[0].release()
+                framebuffer.release()
+        for buffer in self._buffers.values():
+            buffer.release()
+        self._radiance = self._picture = None
+        self._buffers = {}
+
+    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> bool:
+        ray_bytes = self._bind(scene, ray_plan, time, size, offset)
+        self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        return self.hit_map.trace(scene, ray_plan, ray_bytes, size)
+
+    def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int]) -> None:
+        if self._radiance is None or self._radiance.size != size:
+            self._radiance = self._fresh(self._radiance, size, 4, "f2")
+        self._shade.draw(scene, ray_plan, self.hit_map, self._radiance)
+
+    def _own_picture(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+        if self._picture is None or self._picture.size != size:
+            self._picture = self._fresh(self._picture, size, 4, "f1")
+        return self._picture
+
+    def _fresh(self, old: moderngl.Framebuffer | None, size: tuple[int, int], components: int, dtype: str) -> moderngl.Framebuffer:
+        if old is not None:
+            old.color_attachments[0].release()
+            old.release()
+        return self.ctx.framebuffer([self.ctx.texture(size, components, dtype=dtype)])
+
+    def _bind(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> bytes:
+        """Fills and binds the uniform blocks; returns the ray block's bytes."""
+        packed = uniforms.as_bytes(scene, ray_plan, time, size, offset)
+        for block in (uniforms.RAY_BLOCK, uniforms.SHADE_BLOCK, uniforms.scene_block()):
+            data = packed[block.name]
+            if block.name not in self._buffers:
+                self._buffers[block.name] = self.ctx.buffer(data, dynamic=True)
+            else:
+                self._buffers[block.name].write(data)
+            self._buffers[block.name].bind_to_uniform_block(block.binding)
+        return packed[uniforms.RAY_BLOCK.name]
+
+    def _radiance_array(self) -> np.ndarray:
+        width, height = self._radiance.size
+        return np.frombuffer(self._radiance.color_attachments[0].read(), np.float16).reshape(height, width, 4).astype(np.float64)
+
+    def _stamp(self, stamps: list[float], measure: bool) -> None:
+        if measure:
+            self.ctx.finish()
+        stamps.append(clock.perf_counter())

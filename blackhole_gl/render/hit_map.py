@@ -1,0 +1,108 @@
+"""The trace pass and what it leaves: where every pixel's light comes from. Kept while nothing it depends on has changed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from ..plan import RayPlan
+from ..scene import Scene
+from . import uniforms
+from .programs import Programs, draw
+
+
+@dataclass(frozen=True)
+class HitArrays:
+    """A hit map on the host; row 0 is the picture's bottom row, as GL stores it.
+
+    Attributes:
+        fate: int (…): 0 unresolved, 1 escaped, 2 captured.
+        steps: int (…).
+        direction: float32 (…, 3): asymptotic unit vectors in the world; zero unless escaped.
+        lambda_: float32 (…): L_z/E in M; zero when no crossings are kept.
+        crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
+    """
+
+    fate: np.ndarray
+    steps: np.ndarray
+    direction: np.ndarray
+    lambda_: np.ndarray
+    crossing: np.ndarray
+
+
+class HitMap:
+    """The targets of the trace pass.
+
+    Attributes:
+        textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
+        traces: how many times rays have been traced, for tests and the overlay.
+    """
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self.textures: list[moderngl.Texture] = []
+        self.traces = 0
+        self._target: moderngl.Framebuffer | None = None
+        self._key: tuple | None = None
+
+    def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int]) -> bool:
+        """Traces `scene` at `size` unless the map holds just that already. The uniform blocks are bound. True when it traced."""
+        triangle = self._programs.get("trace.frag", scene, ray_plan)
+        key = (id(triangle), ray_bytes, scene.hole, tuple(sorted((k, v) for k, v in scene.parameters.items() if k.startswith("rays."))), size, ray_plan.orders)
+        if key == self._key:
+            return False
+        self._make_targets(size, ray_plan.orders)
+        self._target.use()
+        draw(triangle)
+        self._key = key
+        self.traces += 1
+        return True
+
+    def trace_listed(self, scene: Scene, ray_plan: RayPlan, directions: np.ndarray) -> HitArrays:
+        """Hits of listed local directions (N, 3) instead of pixels. The uniform blocks are bound."""
+        count = len(directions)
+        width = min(count, 1024)
+        height = -(-count // width)
+        listed = np.zeros((height * width, 4), np.float32)
+        listed[:, 0] = -1.0
+        listed[:count, :3] = directions
+        rays = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
+        triangle = self._programs.get("trace.frag", scene, ray_plan, {"RAYS_LISTED": 1})
+        triangle.program["listed_rays"].value = 0
+        rays.use(0)
+        self._key = None
+        self._make_targets((width, height), ray_plan.orders)
+        self._target.use()
+        draw(triangle)
+        rays.release()
+        found = self.read()
+        return HitArrays(*(getattr(found, name).reshape(height * width, *getattr(found, name).shape[2:])[:count] for name in HitArrays.__dataclass_fields__))
+
+    def read(self) -> HitArrays:
+        """The map as arrays of shape (height, width, …)."""
+        width, height = self.textures[0].size
+        data = [np.frombuffer(t.read(), np.float32).reshape(height, width, 4) for t in self.textures]
+        data += [np.zeros((height, width, 4), np.float32)] * (3 - len(data))
+        packed = np.rint(data[0][..., 3]).astype(int)
+        crossing = np.stack([data[1][..., :2], data[2][..., :2], data[2][..., 2:]], axis=-2)
+        return HitArrays(packed & 3, packed >> 2, data[0][..., :3], data[1][..., 2], crossing)
+
+    def _make_targets(self, size: tuple[int, int], orders: int) -> None:
+        count = 1 + min(orders, 2)
+        if self._target is not None and self._target.size == size and len(self.textures) == count:
+            return
+        self.release()
+        self.textures = [self._ctx.texture(size, 4, dtype="f4") for _ in range(count)]
+        for texture in self.textures:
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._target = self._ctx.framebuffer(self.textures)
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        if self._target is not None:
+            self._target.release()
+            for texture in self.textures:
+                texture.release()
+        self._target, self.textures, self._key = None, [], None

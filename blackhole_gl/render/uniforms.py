@@ -1,0 +1,139 @@
+"""The uniform blocks: what a ray depends on, what shading depends on, and every number of the scene.
+
+`RAY_BLOCK` and the scene's ``hole`` and ``rays`` numbers are all that the hits depend on; its bytes are part of the hit map's key.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Mapping
+
+import numpy as np
+
+from .. import observer, plan, relativity, shear
+from ..glsl.blocks import Block
+from ..scene import Scene, fields
+
+RAY_BLOCK = Block(
+    "RayBlock",
+    0,
+    (
+        ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
+        ("camera_n", "vec4"),  # from the hole to the camera, world; w: sine of the inclination
+        ("camera_e_theta", "vec4"),
+        ("camera_e_phi", "vec4"),
+        ("picture_size", "vec2"),  # pixels of the whole picture
+        ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+        ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
+        ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
+        ("camera_w", "float"),  # M/r, 0 at infinity
+        ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
+        ("crossing_r_min", "float"),  # r_s
+        ("march_bound", "float"),  # r_s
+        ("plan_step_length", "float"),  # r_s
+        ("plan_step_angle", "float"),  # rad
+        ("plan_max_steps", "int"),
+    ),
+)
+
+SHADE_BLOCK = Block(
+    "ShadeBlock",
+    1,
+    (
+        ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
+        ("shear_seed", "vec4"),
+        ("disk_r_in", "float"),  # r_s, as used
+        ("disk_r_out", "float"),
+        ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
+        ("hole_spin_complement", "float"),  # 1 − |a*|
+    ),
+)
+
+
+@lru_cache(maxsize=None)
+def scene_block() -> Block:
+    """Every number of the scene by its key with underscores; angles of the camera are left to the host."""
+    members = tuple((item.glsl_name, item.kind) for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg"))
+    return Block("SceneBlock", 2, members)
+
+
+def blocks_glsl() -> str:
+    """The GLSL declarations of all blocks."""
+    return "\n".join(block.glsl for block in (RAY_BLOCK, SHADE_BLOCK, scene_block()))
+
+
+def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
+    """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64.
+
+    Raises:
+        ValueError: the camera is inside the horizon.
+    """
+    seen = observer.observe(scene)
+    spin = observer.horizon_spin(scene)
+    half_height = 0.5 * scene.camera.field_m if seen.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
+    r_plus = float(relativity.horizon_radius(spin))
+    return dict(
+        observer_map=seen.observer_map,
+        camera_n=(*seen.n, math.hypot(seen.n[0], seen.n[1])),
+        camera_e_theta=(*seen.e_theta, 0.0),
+        camera_e_phi=(*seen.e_phi, 0.0),
+        picture_size=size,
+        picture_offset=offset,
+        hole_w_factors=(2.0 * r_plus, 2.0 * float(relativity.inner_horizon_radius(spin))),
+        picture_scale=half_height / size[1],
+        camera_w=seen.w,
+        hole_w_stop=0.5 / observer.stop_radius(spin),
+        crossing_r_min=plan.INNERMOST_CROSSING * r_plus,
+        march_bound=plan.march_bound(scene),
+        plan_step_length=ray_plan.step_length,
+        plan_step_angle=ray_plan.step_angle,
+        plan_max_steps=ray_plan.max_steps,
+    )
+
+
+def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
+    """Values of `SHADE_BLOCK` at scene time `time` (r_s/c)."""
+    spin = observer.effective_spin(scene)
+    inner, outer = plan.effective_disk_radii(scene)
+    ages, weights, seeds = shear.shear_phases(time)
+    return dict(
+        shear_phase=(*ages, *weights),
+        shear_seed=(*seeds, 0.0, 0.0),
+        disk_r_in=inner,
+        disk_r_out=outer,
+        disk_spin_sign=float(relativity.orbit_sense(spin, scene.disk.orbit)),
+        hole_spin_complement=1.0 - abs(spin),
+    )
+
+
+def scene_values(scene: Scene) -> dict[str, object]:
+    """Values of `scene_block`. The spin is that of the model: 0 where the model has none. Infinite distances are given as 0."""
+    values = {fields()[key].glsl_name: value for key, value in scene.values().items()}
+    values["hole_spin"] = observer.effective_spin(scene)
+    if math.isinf(scene.camera.distance):
+        values["camera_distance"] = 0.0
+    return values
+
+
+def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
+    """Every ``#define`` that shader text may ask for."""
+    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0}
+    for key, item in fields().items():
+        name = item.glsl_name.upper()
+        if item.kind == "switch":
+            found[name] = int(scene.get(key))
+        elif item.kind == "choice":
+            found.update({f"{name}_{option.upper()}": int(scene.get(key) == option) for option in item.options})
+    return found
+
+
+def as_bytes(scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
+    """The packed blocks by name."""
+    return {
+        RAY_BLOCK.name: RAY_BLOCK.pack(ray_values(scene, ray_plan, size, offset)),
+        SHADE_BLOCK.name: SHADE_BLOCK.pack(shade_values(scene, time)),
+        scene_block().name: scene_block().pack(scene_values(scene)),
+    }
+
+

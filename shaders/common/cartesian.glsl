@@ -1,0 +1,92 @@
+// What the models that march in Cartesian space share: state, start, fate, and the way to and from infinity.
+// x in r_s, v = dx/dσ with the affine parameter σ scaled so that E = 1 (where G = 1). The world is the marched space turned about the spin axis
+// by the twist. A model gives
+//     float ray_twist_strength()    twist = −strength · ∫ dσ/r³
+#include "common/central_orbit.glsl"
+
+struct State {
+    vec3 x;
+    vec3 v;
+    float twist;
+};
+
+Orbit ray_orbit(RayStart start) {
+    float h2 = 0.25 * dot(start.n_rate, start.n_rate);
+    float u = 2.0 * start.w;
+    return Orbit(h2, 1.0 - (hole_gravity_strength - 1.0) * h2 * u * u * u);
+}
+
+vec2 twisted(vec2 point, float twist) {
+    return ray_twist_strength() == 0.0 ? point : rotate(point, cos_sin(twist));
+}
+
+void add_leg_crossing(Orbit orbit, vec3 n, vec3 across, float u, float twist, float sense, inout Hits hits) {
+#if ORDERS > 0
+    vec4 found = leg_crossing(orbit, n, across, u);
+    if (found.w > 0.0) add_crossing(hits, twisted(found.xy, twist - sense * ray_twist_strength() * found.z));
+#endif
+}
+
+// A camera at infinity starts where its ray comes near, with what it crossed on the way there.
+State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
+    if (start.w > 0.0) return State(start.n * (0.5 / start.w), start.w * start.n_rate - start.w_rate * start.n, 0.0);
+    float h = sqrt(orbit.h2);
+    float u = 1.0 / max(march_bound, 2.0 * h);
+    vec3 aside = h > 0.0 ? start.n_rate * (0.5 / h) : vec3(0.0);
+    vec2 leg = orbit_leg(orbit, u, 0.0);
+    vec3 n = turned(start.n, aside, leg.x);
+    vec3 across = turned(aside, -start.n, leg.x);
+    float twist = -ray_twist_strength() * leg.y;
+    add_leg_crossing(orbit, n, -across, u, twist, -1.0, hits);
+    return State(n / u, h * u * across - radial_speed(orbit, u) * n, twist);
+}
+
+State ray_rhs(Orbit orbit, State s) {
+    float u2 = 1.0 / dot(s.x, s.x);
+    float u3 = u2 * sqrt(u2);
+    return State(s.v, (-1.5 * hole_gravity_strength * orbit.h2 * u2 * u3) * s.x, -ray_twist_strength() * u3);
+}
+
+State state_step(State s, float h, State k) {
+    return State(s.x + h * k.x, s.v + h * k.v, s.twist + h * k.twist);
+}
+
+float ray_radius(State s) {
+    return length(s.x);
+}
+
+int ray_fate(Orbit orbit, State s) {
+    float r2 = dot(s.x, s.x);
+    if (r2 < hole_horizon_size * hole_horizon_size) return CAPTURED;
+    float outward = dot(s.x, s.v);
+    bool leaves = outward > 0.0 && outward * outward > OUTWARD_COSINE * OUTWARD_COSINE * r2 * dot(s.v, s.v);
+    return leaves && r2 > march_bound * march_bound ? ESCAPED : UNRESOLVED;
+}
+
+float ray_end(Orbit orbit, State a, State b, float h) {
+    return 1.0;
+}
+
+void ray_finish(Orbit orbit, State s, inout Hits hits) {
+    float u = inversesqrt(dot(s.x, s.x));
+    vec3 n = s.x * u;
+    vec3 aside = s.v - dot(s.v, n) * n;
+    float speed = length(aside);
+    vec3 across = speed > 0.0 ? aside / speed : vec3(0.0);
+    vec2 leg = orbit_leg(orbit, u, 0.0);
+    add_leg_crossing(orbit, n, across, u, s.twist, 1.0, hits);
+    vec3 escape = turned(n, across, leg.x);
+    hits.direction = normalize(vec3(twisted(escape.xy, s.twist - ray_twist_strength() * leg.y), escape.z));
+}
+
+float ray_height(State s) {
+    return s.x.z;
+}
+
+float ray_height_rate(State s) {
+    return s.v.z;
+}
+
+vec2 ray_plane_point(State s) {
+    return twisted(s.x.xy, s.twist);
+}

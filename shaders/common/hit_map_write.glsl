@@ -1,0 +1,29 @@
+// Writes hits into the targets of the trace pass. The other half is hit_map_read.glsl.
+
+layout(location = 0) out vec4 hits0_out;  // direction, 4·steps + fate
+#if ORDERS > 0
+layout(location = 1) out vec4 hits1_out;  // crossing 0, λ, unused
+#endif
+#if ORDERS > 1
+layout(location = 2) out vec4 hits2_out;  // crossings 1 and 2
+#endif
+
+// Hits with every number finite: what is not becomes an unresolved ray.
+Hits only_finite(Hits hits) {
+    vec4 size = vec4(dot(hits.direction, hits.direction), dot(hits.crossing[0], hits.crossing[0]), dot(hits.crossing[1], hits.crossing[1]), dot(hits.crossing[2], hits.crossing[2]));
+    if (all(lessThan(size, vec4(1e30)))) return hits;  // false for NaN
+    Hits failed = no_hits(0.0);
+    failed.steps = hits.steps;
+    return failed;
+}
+
+void store_hits(Hits traced) {
+    Hits hits = only_finite(traced);
+    hits0_out = vec4(hits.direction, float(4 * hits.steps + hits.fate));
+#if ORDERS > 0
+    hits1_out = vec4(hits.crossing[0], hits.lambda, 0.0);
+#endif
+#if ORDERS > 1
+    hits2_out = vec4(hits.crossing[1], ORDERS > 2 ? hits.crossing[2] : vec2(0.0));
+#endif
+}

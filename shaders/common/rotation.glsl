@@ -1,0 +1,19 @@
+// Rotations by an angle, without the driver's sin and cos, whose accuracy the standard leaves open.
+
+// (cos, sin) of `angle` in radians, |angle| < 1000: reduction to ±π/4 in two parts (Cody & Waite), then Taylor
+// polynomials whose remainder at π/4 is below 2e-9.
+vec2 cos_sin(float angle) {
+    float quarter = floor(angle * 0.636619772 + 0.5);
+    float x = (angle - quarter * 1.5707855225) - quarter * 1.0804334124e-5;
+    float x2 = x * x;
+    float s = x * (1.0 + x2 * (-1.66666667e-1 + x2 * (8.33333333e-3 + x2 * (-1.98412698e-4 + x2 * 2.75573192e-6))));
+    float c = 1.0 + x2 * (-0.5 + x2 * (4.16666667e-2 + x2 * (-1.38888889e-3 + x2 * (2.48015873e-5 - x2 * 2.75573192e-7))));
+    int octant = int(quarter) & 3;
+    vec2 turned = (octant & 1) == 0 ? vec2(c, s) : vec2(-s, c);
+    return octant < 2 ? turned : -turned;
+}
+
+// `v` turned by the angle whose (cos, sin) is `turn`.
+vec2 rotate(vec2 v, vec2 turn) {
+    return vec2(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x);
+}

@@ -1,0 +1,86 @@
+/*---
+label = "Kerr"
+summary = "Exact null geodesics of a spinning hole, in Mino time on the sphere of directions: no poles, no turning points."
+source = "Carter 1968; Mino 2003; polynomial form in w = M/r and a unit vector (docs/physics.md)"
+slot = "ray_model"
+rank = 1
+kind = "differential"
+marches_in = "mino"
+step_control = "mino"
+space_time = "kerr"
+spins = true
+exact = true
+---*/
+// w'' = c₂w + c₃w² + c₄w³,  n'' = −(K + 2a²n_z²)n + a²n_z ẑ,  twist' = −a w (2 − aλw)/((1 − w r₊)(1 − w r₋)).
+// Units M = 1. The world direction is n turned about the spin axis by the twist.
+
+struct Orbit {
+    vec3 c;        // c₂, c₃, c₄
+    float k;       // K = η + λ²
+    float a_lambda;
+    float scale;   // 1/√(K + 1), the Mino time of about one radian
+};
+
+struct State {
+    float w;
+    float w_rate;
+    vec3 n;
+    vec3 n_rate;
+    float twist;
+};
+
+Orbit ray_orbit(RayStart start) {
+    float a = hole_spin;
+    float k = dot(start.n_rate, start.n_rate) - a * a * start.n.z * start.n.z;
+    float eta = k - start.lambda * start.lambda;
+    return Orbit(vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta), k, a * start.lambda, inversesqrt(max(k, 0.0) + 1.0));
+}
+
+State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
+    return State(start.w, start.w_rate, start.n, start.n_rate, 0.0);
+}
+
+State ray_rhs(Orbit orbit, State s) {
+    float a = hole_spin;
+    float w_force = s.w * (orbit.c.x + s.w * (orbit.c.y + s.w * orbit.c.z));
+    float a2_nz = a * a * s.n.z;
+    vec3 n_force = -(orbit.k + 2.0 * a2_nz * s.n.z) * s.n;
+    n_force.z += a2_nz;
+    float twist_rate = -a * s.w * (2.0 - orbit.a_lambda * s.w) / ((1.0 - s.w * hole_w_factors.x) * (1.0 - s.w * hole_w_factors.y));
+    return State(s.w_rate, w_force, s.n_rate, n_force, twist_rate);
+}
+
+State state_step(State s, float h, State k) {
+    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.n + h * k.n, s.n_rate + h * k.n_rate, s.twist + h * k.twist);
+}
+
+float ray_step_scale(Orbit orbit) {
+    return orbit.scale;
+}
+
+// Inside hole_w_stop an inward ray has no turning point left; infinity is w = 0.
+int ray_fate(Orbit orbit, State s) {
+    if (s.w <= 0.0) return ESCAPED;
+    return s.w > hole_w_stop && s.w_rate > 0.0 ? CAPTURED : UNRESOLVED;
+}
+
+float ray_end(Orbit orbit, State a, State b, float h) {
+    return hermite_root(a.w, h * a.w_rate, b.w, h * b.w_rate);
+}
+
+void ray_finish(Orbit orbit, State s, inout Hits hits) {
+    vec3 n = s.n - (s.w / s.w_rate) * s.n_rate;  // what the root left over
+    hits.direction = normalize(vec3(rotate(n.xy, cos_sin(s.twist)), n.z));
+}
+
+float ray_height(State s) {
+    return s.n.z;
+}
+
+float ray_height_rate(State s) {
+    return s.n_rate.z;
+}
+
+vec2 ray_plane_point(State s) {
+    return rotate(normalize(s.n.xy), cos_sin(s.twist)) * (0.5 / s.w);
+}

@@ -1,0 +1,27 @@
+/*---
+label = "Kerr-like"
+summary = "Schwarzschild orbits whose propagation basis is twisted about the spin axis by the Lense–Thirring rate: a picture of dragging, not Kerr."
+source = "S0"
+slot = "ray_model"
+rank = 3
+kind = "differential"
+marches_in = "cartesian"
+step_control = "radius"
+space_time = "schwarzschild"
+spins = true
+exact = false
+
+[parameters.drag]
+default = 1.0
+range = [0.0, 10.0]
+unit = "×"
+help = "k in the twist rate ω = k a/r³ with a half the spin, the rate of the twist; 1 is the Lense–Thirring rate far from the hole."
+physical = 1.0
+---*/
+
+// The twist turns place and velocity alike, so that L_z stays what it was and the twist is a quadrature along the orbit.
+float ray_twist_strength() {
+    return 0.5 * rays_kerr_like_drag * hole_spin;
+}
+
+#include "common/cartesian.glsl"

@@ -1,0 +1,19 @@
+/*---
+label = "Schwarzschild"
+summary = "Exact null orbits of a hole without spin, marched in Cartesian space: x'' = −(3/2) G h² x/r⁵."
+source = "Binet's equation u'' + u = (3/2) u² as a central force; S1"
+slot = "ray_model"
+rank = 2
+kind = "differential"
+marches_in = "cartesian"
+step_control = "radius"
+space_time = "schwarzschild"
+spins = false
+exact = true
+---*/
+
+float ray_twist_strength() {
+    return 0.0;
+}
+
+#include "common/cartesian.glsl"

@@ -1,0 +1,33 @@
+#version 330 core
+// Pixel → the observer's ray → hits. Nothing here depends on how things glow.
+//
+// The ray model is closed (gives trace_ray itself) or differential (common/march.glsl drives it with an integrator and a step control).
+// RAYS_LISTED: rays come from a texture of local directions instead of from pixels, one a texel.
+
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/observer.glsl"
+#include "common/rotation.glsl"
+#include "common/hermite.glsl"
+#include "common/hits.glsl"
+#include "common/hit_map_write.glsl"
+#slot ray_model
+#if MARCHED
+#slot step_control
+#slot integrator
+#include "common/march.glsl"
+#endif
+
+#if RAYS_LISTED
+uniform sampler2D listed_rays;
+#endif
+
+void main() {
+#if RAYS_LISTED
+    vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
+#else
+    vec3 local = pixel_direction(gl_FragCoord.xy);
+#endif
+    store_hits(trace_ray(ray_start(local)));
+}
