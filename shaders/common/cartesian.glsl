@@ -20,24 +20,26 @@ vec2 twisted(vec2 point, float twist) {
     return ray_twist_strength() == 0.0 ? point : rotate(point, cos_sin(twist));
 }
 
-void add_leg_crossing(Orbit orbit, vec3 n, vec3 across, float u, float twist, float sense, inout Hits hits) {
+void add_leg_crossing(Orbit orbit, vec3 n, vec3 across, float u, float u_end, float twist, float sense, inout Hits hits) {
 #if ORDERS > 0
-    vec4 found = leg_crossing(orbit, n, across, u);
+    vec4 found = leg_crossing(orbit, n, across, u, u_end);
     if (found.w > 0.0) add_crossing(hits, twisted(found.xy, twist - sense * ray_twist_strength() * found.z));
 #endif
 }
 
-// A camera at infinity starts where its ray comes near, with what it crossed on the way there.
+// A ray that comes in from afar starts its march where it is near, with what it crossed on the way there: fewer steps, and no
+// rounding of a place that is many horizons away.
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
-    if (start.w > 0.0) return State(start.n * (0.5 / start.w), start.w * start.n_rate - start.w_rate * start.n, 0.0);
     float h = sqrt(orbit.h2);
+    float u_far = 2.0 * start.w;
     float u = 1.0 / max(march_bound, 2.0 * h);
+    if (u_far >= u || start.w_rate <= 0.0) return State(start.n / u_far, start.w * start.n_rate - start.w_rate * start.n, 0.0);
     vec3 aside = h > 0.0 ? start.n_rate * (0.5 / h) : vec3(0.0);
-    vec2 leg = orbit_leg(orbit, u, 0.0);
+    vec2 leg = orbit_leg(orbit, u, u_far);
     vec3 n = turned(start.n, aside, leg.x);
     vec3 across = turned(aside, -start.n, leg.x);
     float twist = -ray_twist_strength() * leg.y;
-    add_leg_crossing(orbit, n, -across, u, twist, -1.0, hits);
+    if (start.n.z != 0.0) add_leg_crossing(orbit, n, -across, u, u_far, twist, -1.0, hits);
     return State(n / u, h * u * across - radial_speed(orbit, u) * n, twist);
 }
 
@@ -74,7 +76,7 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     float speed = length(aside);
     vec3 across = speed > 0.0 ? aside / speed : vec3(0.0);
     vec2 leg = orbit_leg(orbit, u, 0.0);
-    add_leg_crossing(orbit, n, across, u, s.twist, 1.0, hits);
+    add_leg_crossing(orbit, n, across, u, 0.0, s.twist, 1.0, hits);
     vec3 escape = turned(n, across, leg.x);
     hits.direction = normalize(vec3(twisted(escape.xy, s.twist - ray_twist_strength() * leg.y), escape.z));
 }

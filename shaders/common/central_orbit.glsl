@@ -35,19 +35,19 @@ vec3 turned(vec3 n, vec3 across, float angle) {
     return turn.x * n + turn.y * across;
 }
 
-// Where the outward leg from (n, u0) that moves towards `across` meets z = 0, as (point in the plane, ∫ u³ dσ up to it, 1);
+// Where the outward leg from (n, u0) to u_end that moves towards `across` meets z = 0, as (point in the plane, ∫ u³ dσ up to it, 1);
 // vec4(0) when it does not. Newton in u, as dφ/du is known.
-vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0) {
-    vec2 whole = orbit_leg(orbit, u0, 0.0);
+vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0, float u_end) {
+    vec2 whole = orbit_leg(orbit, u0, u_end);
     if (n.z * turned(n, across, whole.x).z >= 0.0) return vec4(0.0);
-    float u = 0.5 * u0;
+    float u = 0.5 * (u0 + u_end);
     vec2 leg;
     vec3 there;
     for (int i = 0; i < 8; ++i) {
         leg = orbit_leg(orbit, u0, u);
         there = turned(n, across, leg.x);
         float slope = turned(across, -n, leg.x).z * sqrt(orbit.h2) / radial_speed(orbit, u);
-        u = clamp(u + there.z / slope, 1e-3 * u, u0);
+        u = clamp(u + there.z / slope, max(1e-3 * u, u_end), u0);
     }
     return vec4(normalize(there.xy) / u, leg.y, 1.0);
 }
