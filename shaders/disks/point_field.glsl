@@ -62,9 +62,9 @@ float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
 }
 
 float points_of_phase(DiskMatter matter, float age, float seed) {
-    float sum = 0.0;
-    for (int i = 0; i < 3; ++i)
-        sum += points_of_size(matter, disk_point_field_rings * exp2(0.7 * float(i)), age, uint(seed) * 4u + uint(i));
+    float sum = points_of_size(matter, disk_point_field_rings, age, uint(seed) * 4u)
+              + points_of_size(matter, disk_point_field_rings * 1.6, age, uint(seed) * 4u + 1u)
+              + points_of_size(matter, disk_point_field_rings * 2.7, age, uint(seed) * 4u + 2u);
     float clump = simplex_noise(vec3(matter.heading * 3.0, 6.0 * log(matter.radius)), uint(seed));
     return sum / 3.0 * max(1.0 + 2.0 * disk_point_field_turbulence * clump, 0.0);
 }

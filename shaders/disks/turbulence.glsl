@@ -29,44 +29,47 @@ help = "How fast alternate octaves slide past each other, forwards and backwards
 #include "common/noise.glsl"
 #include "common/disk_orbit.glsl"
 
-// The noise lives on a cylinder: (cos φ, sin φ)·around and ln r·across. So it has no seam at φ = ±π, and its eddies
-// keep their shape at every radius.
-//
-// How much one octave of one phase adds to a density of 1: mean 0. `log_step`, `turn_step`: pixel footprint in ln r and φ.
-float turbulence_octave(vec2 heading, float log_r, float across, float around, vec2 footprint, uint seed) {
-    // Detail finer than two pixels is faded out; it would only flicker.
-    float detail = max(footprint.x * across, footprint.y * around);
-    float kept = 1.0 - smoothstep(0.35, 0.9, detail);
-    if (kept <= 0.0)
-        return 0.0;
-    return disk_turbulence_contrast * kept * simplex_noise(vec3(heading * around, log_r * across), seed);
-}
+// The noise lives on a cylinder: (cos φ, sin φ)·around and ln r·across. So it has no seam at φ = ±π, and its eddies keep
+// their shape at every radius. The octaves' factors are exponentials of noise: their product is log-normal, as the density
+// of a turbulent flow is, never negative, and its mean is kept at 1 whatever the number of octaves and the pixel's size.
+const float NOISE_DEVIATION = 0.24; // of simplex_noise
 
-// All octaves of one phase of the shear, `age` old: deviation of the density from 1.
-float turbulence_phase(DiskMatter matter, float age, float seed) {
-    float rate = disk_rate(matter.radius) * disk_noise_speed;
-    float winding = 1.5 * abs(rate) * age; // |dφ/d ln r| that the shear has drawn out
-    float across = 8.0 * disk_noise_scale;
-    float around = across / disk_turbulence_stretch;
-    float product = 1.0;
-    for (int i = 1; i <= int(disk_turbulence_octaves); ++i) {
-        float frequency = float(i * i);
-        float slide = (i % 2 == 0 ? -1.0 : 1.0) * disk_spin_sign * disk_turbulence_eddy_rate * disk_noise_speed * age;
-        float angle = -(rate * age + slide);
-        vec2 turn = vec2(cos(angle), sin(angle));
-        vec2 heading = vec2(turn.x * matter.heading.x - turn.y * matter.heading.y, turn.y * matter.heading.x + turn.x * matter.heading.y);
-        vec2 footprint = vec2(matter.footprint.x, matter.footprint.y + winding * matter.footprint.x);
-        product *= max(1.0 + turbulence_octave(heading, log(matter.radius), across * frequency, around * frequency, footprint,
-                                               uint(seed) * 16u + uint(i)), 0.0);
-    }
-    return product - 1.0;
+vec2 turned(vec2 heading, float angle) {
+    float c = cos(angle), s = sin(angle);
+    return vec2(c * heading.x - s * heading.y, s * heading.x + c * heading.y);
 }
 
 DiskMatter disk_layer_turbulence(DiskMatter matter) {
-    float first = shear_phase.z > 0.0 ? turbulence_phase(matter, shear_phase.x, shear_seed.x) : 0.0;
-    float second = shear_phase.w > 0.0 ? turbulence_phase(matter, shear_phase.y, shear_seed.y) : 0.0;
-    // Divided by the weights' norm, so that two independent patterns half mixed have the contrast of one.
-    float deviation = (shear_phase.z * first + shear_phase.w * second) * inversesqrt(dot(shear_phase.zw, shear_phase.zw));
-    matter.density *= max(1.0 + disk_density_gain / 9200.0 * deviation, 0.0);
+    float rate = disk_rate(matter.radius) * disk_noise_speed;
+    float slide = disk_spin_sign * disk_noise_speed * disk_turbulence_eddy_rate;
+    vec2 ages = shear_phase.xy;
+    vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw)); // two patterns mixed: the contrast of one
+    // Heading in each pattern's own, unturned frame: xy for odd octaves, zw for even ones, which slide the other way.
+    vec4 heading_a = vec4(turned(matter.heading, -(rate + slide) * ages.x), turned(matter.heading, -(rate - slide) * ages.x));
+    vec4 heading_b = vec4(turned(matter.heading, -(rate + slide) * ages.y), turned(matter.heading, -(rate - slide) * ages.y));
+    vec2 winding = 1.5 * abs(rate) * ages; // |dφ/d ln r| that the shear has drawn out
+
+    float across = 8.0 * disk_noise_scale;
+    float around = across / disk_turbulence_stretch;
+    float contrast = disk_turbulence_contrast * disk_density_gain / 9200.0;
+    float height = log(matter.radius) * across;
+    float exponent = 0.0, variance = 0.0;
+    int index = 0;
+    do { // octave i = 1, 2, … of pattern a, then of pattern b, in turn
+        bool second = (index & 1) == 1;
+        int octave = (index >> 1) + 1;
+        float frequency = float(octave * octave);
+        vec4 headings = second ? heading_b : heading_a;
+        vec2 heading = (octave & 1) == 1 ? headings.xy : headings.zw;
+        // Detail finer than two pixels is faded out; it would only flicker.
+        float turn_step = matter.footprint.y + (second ? winding.y : winding.x) * matter.footprint.x;
+        float detail = frequency * max(matter.footprint.x * across, turn_step * around);
+        float strength = contrast * (1.0 - smoothstep(0.3, 0.8, detail)) * (second ? weights.y : weights.x);
+        uint seed = uint(second ? shear_seed.y : shear_seed.x) * 16u + uint(octave);
+        exponent += strength * simplex_noise(vec3(heading * around, height) * frequency, seed);
+        variance += strength * strength;
+        ++index;
+    } while (index < 2 * int(disk_turbulence_octaves));
+    matter.density *= exp(exponent - 0.5 * NOISE_DEVIATION * NOISE_DEVIATION * variance);
     return matter;
 }

@@ -7,8 +7,9 @@
 uniform sampler2D radiance;
 #if POST_BLOOM
 uniform sampler2D glow;
-uniform vec2 target_texel;
 #endif
+uniform vec2 target_origin; // lower left pixel of the picture in the target
+uniform vec2 target_texel;  // 1 / size of the picture in the target
 
 out vec4 colour;
 
@@ -53,15 +54,16 @@ vec3 dither_noise(uvec2 pixel) {
 }
 
 void main() {
-    vec3 light = texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb;
+    vec2 pixel = gl_FragCoord.xy - target_origin;
+    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb;
 #if POST_BLOOM
-    light += post_bloom_intensity * textureLod(glow, gl_FragCoord.xy * target_texel, 0.0).rgb;
+    light += post_bloom_intensity * textureLod(glow, pixel * target_texel, 0.0).rgb;
 #endif
     light = clamp(tone_curve(light * exp2(post_exposure)), 0.0, 1.0);
     vec3 code = srgb_code(pow(light, vec3(1.0 / post_gamma)));
 #if POST_DITHER
     // One grey level at most, less near black and white, so that both stay clean.
-    code += dither_noise(uvec2(gl_FragCoord.xy)) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));
+    code += dither_noise(uvec2(pixel)) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));
 #endif
     colour = vec4(code, 1.0);
 }

@@ -1,7 +1,7 @@
 /*---
 label = "Stars and galaxy"
 summary = "Procedural stars with a natural distribution of brightness and colour, and a galaxy band with dust."
-source = "own; number of stars against flux after the counts of the real sky, N(>F) ∝ F^-1.3"
+source = "own; number of stars against flux N(>F) ∝ F^-4/3, a little flatter than Euclid's 3/2, as in the real sky"
 slot = "sky"
 rank = 10
 
@@ -123,17 +123,19 @@ SkyPlace sky_place(vec3 d) {
     return SkyPlace(face, place, cube_cell_width(place));
 }
 
-// Radiance of one grid of 6·cells² places for stars, with fluxes from low to high, number ∝ F^-1.3.
-// `smooth_light`: radiance per star and steradian of flux 1; `energy`: the observer's blue-shift.
-vec3 star_grid(SkySpot spot, SkyPlace at, float cells, float low, float high, vec3 smooth_light, float energy) {
-    const float SLOPE = 1.3;
-    float head = pow(low, -SLOPE), tail = pow(high, -SLOPE);
-    float mean_flux = SLOPE / (SLOPE - 1.0) * (low * head - high * tail) / (head - tail);
-    vec3 mean_light = smooth_light * (mean_flux * cells * cells);
+// Light of stars, kept as one number and its temperature: colour is looked up once, at the end.
+struct StarLight {
+    float power;  // radiance × sr of a star of flux 1
+    float heat;   // the same, times K
+};
 
+// Adds one grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3.
+// `richness`: stars per place and steradian of a grid with one cell across a face.
+StarLight add_star_grid(StarLight light, SkySpot spot, SkyPlace at, float cells, float low, float high, float richness) {
+    float tail = pow(low / high, 4.0 / 3.0);
+    float mean_flux = 4.0 * (low - high * tail) / (1.0 - tail);
+    float mean_power = mean_flux * richness * cells * cells;
     float single = 1.0 - smoothstep(0.8, 1.0, 2.0 * spot.reach * cells / (STAR_MARGIN * at.cell_width));
-    if (single <= 0.0)
-        return mean_light;
 
     vec2 cell = min(floor((at.place * 0.5 + 0.5) * cells), cells - 1.0);
     uint h = hash_lattice(ivec3(ivec2(cell), at.face), uint(cells));
@@ -141,17 +143,18 @@ vec3 star_grid(SkySpot spot, SkyPlace at, float cells, float low, float high, ve
     vec3 star = cube_direction(at.face, where);
     vec2 d = vec2(dot(star, spot.e1), dot(star, spot.e2));
     float distance2 = spot.metric.x * d.x * d.x + 2.0 * spot.metric.y * d.x * d.y + spot.metric.z * d.y * d.y;
-    vec3 light = vec3(0.0);
-    if (distance2 < 4.0) {
-        vec3 draw = hash_vec3(hash_bits(h + 1u));
-        if (draw.x < star_richness(star) * cube_cell_share(where)) {
-            float fall = 1.0 - 0.25 * distance2; // ∫ fall³ over the disc of radius 2 is π
-            float flux = pow(mix(head, tail, draw.y), -1.0 / SLOPE);
-            float kelvin = 2900.0 + 5500.0 * draw.z + 18000.0 * pow(draw.z, 8.0);
-            light = blackbody_colour(kelvin * energy) * (flux * fall * fall * fall / (3.1415927 * spot.area));
-        }
-    }
-    return mix(mean_light, light, single);
+    float fall = max(1.0 - 0.25 * distance2, 0.0); // ∫ fall³ over the disc of radius 2 is π
+
+    vec3 draw = hash_vec3(hash_bits(h + 1u));
+    float exists = step(draw.x, star_richness(star) * cube_cell_share(where));
+    float root = inversesqrt(mix(1.0, tail, draw.y));
+    float flux = low * root * sqrt(root); // the inverse of the count, to the power 3/4
+    float rare = draw.z * draw.z;
+    rare *= rare;
+    float kelvin = 2900.0 + 5500.0 * draw.z + 18000.0 * rare * rare;
+    float power = exists * single * flux * fall * fall * fall / (3.1415927 * spot.area);
+    mean_power *= 1.0 - single;
+    return StarLight(light.power + power + mean_power, light.heat + power * kelvin + mean_power * 6200.0);
 }
 
 vec3 galaxy_radiance(SkySpot spot) {
@@ -168,13 +171,15 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
 #endif
     SkySpot spot = sky_spot(direction, right, up);
     SkyPlace at = sky_place(direction);
-    // Stars per steradian in a grid: cells²/4 places in a face's unit of 4/9 · 1.4831 sr; mean colour of the stars: 6,200 K.
-    vec3 smooth_light = blackbody_colour(6200.0 * energy) * (star_richness(direction) * 0.5625 / 1.4831);
-    vec3 stars = star_grid(spot, at, 7.0, 1.0, 24.0, smooth_light, energy)
-               + star_grid(spot, at, 16.0, 0.245, 1.0, smooth_light, energy)
-               + star_grid(spot, at, 34.0, 0.0734, 0.245, smooth_light, energy)
-               + star_grid(spot, at, 60.0, 0.0283, 0.0734, smooth_light, energy);
+    // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
+    float richness = star_richness(direction) * 0.5625 / 1.4831;
+    StarLight stars = StarLight(0.0, 0.0);
+    stars = add_star_grid(stars, spot, at, 7.0, 1.0, 20.0, richness);
+    stars = add_star_grid(stars, spot, at, 16.0, 0.2536, 1.0, richness);
+    stars = add_star_grid(stars, spot, at, 34.0, 0.0783, 0.2536, richness);
+    stars = add_star_grid(stars, spot, at, 60.0, 0.0309, 0.0783, richness);
+    vec3 colour = blackbody_colour(stars.heat / max(stars.power, 1e-20) * energy);
     vec3 galaxy = galaxy_radiance(spot) * (0.06 * sky_procedural_galaxy_brightness);
     float boost = energy * energy;
-    return (stars * (STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
+    return (colour * (stars.power * STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
 }

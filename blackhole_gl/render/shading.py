@@ -1,0 +1,144 @@
+"""The shade pass: hit map and time → linear radiance."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from .. import disk_profile, observer, plan
+from ..resources import assets_dir
+from ..scene import Scene
+from .hit_map import HitMap
+from .programs import Programs, draw
+
+
+class ShadePass:
+    """Draws shaders/shade_*.frag and owns the tables they read.
+
+    First every pixel is sorted by what it needs, into a depth buffer; then the depth test lets the disk's and the sky's
+    shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are.
+
+    Raises:
+        FileNotFoundError: a table is missing from assets/.
+    """
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self._tables = {"blackbody_table": _blackbody_table(ctx), "galaxy_band": _galaxy_band(ctx)}
+        self._profile_key: tuple | None = None
+        self._classes: moderngl.Framebuffer | None = None
+        self._classes_key: tuple | None = None
+        self._frame: moderngl.Framebuffer | None = None
+
+    def draw(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
+        """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning). The uniform blocks are bound."""
+        self._update_profile(scene)
+        self._sort_pixels(scene, ray_plan, hit_map)
+        self._attach(target)
+        ctx = self._ctx
+        self._frame.use()
+        self._frame.depth_mask = False
+        self._frame.color_mask = True, True, True, True
+        self._frame.clear(0.0, 0.0, 0.0, 1.0)
+        ctx.enable(moderngl.DEPTH_TEST | moderngl.BLEND)
+        # Front to back: what is drawn later shows by the share that what was drawn before lets through.
+        ctx.blend_func = moderngl.DST_ALPHA, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA
+        if ray_plan.orders:
+            triangle = self._prepared("shade_disk.frag", scene, ray_plan, hit_map)
+            self._draw_classes(triangle, "<", 0.7)
+            self._draw_classes(triangle, ">", 0.3)
+        if scene.sky.enabled:
+            self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map), "<", 0.5)
+        ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
+        ctx.depth_func = "<"
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for texture in self._tables.values():
+            texture.release()
+        self._tables, self._profile_key = {}, None
+        self._release_classes()
+
+    def _prepared(self, path: str, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.VertexArray:
+        triangle = self._programs.get(path, scene, ray_plan)
+        bind_samplers(triangle.program, {**{f"hits{k}": texture for k, texture in enumerate(hit_map.textures)}, **self._tables})
+        return triangle
+
+    def _draw_classes(self, triangle: moderngl.VertexArray, comparison: str, depth: float) -> None:
+        """Draws where `depth` compares so with the pixel's class, as written by shade_classes.frag."""
+        self._ctx.depth_func = comparison
+        triangle.program["triangle_depth"].value = 2.0 * depth - 1.0
+        draw(triangle)
+
+    def _sort_pixels(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
+        size = hit_map.textures[0].size
+        key = (hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
+        if key == self._classes_key:
+            return
+        if self._classes is None or self._classes.size != size:
+            self._release_classes()
+            self._classes = self._ctx.framebuffer([], self._ctx.depth_texture(size))
+        triangle = self._prepared("shade_classes.frag", scene, ray_plan, hit_map)
+        self._classes.use()
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"  # always
+        draw(triangle)
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._classes_key = key
+
+    def _attach(self, target: moderngl.Framebuffer) -> None:
+        """Makes the framebuffer of the target's picture and the pixels' classes, unless it is there."""
+        picture = target.color_attachments[0]
+        if self._frame is None or self._frame.color_attachments[0] is not picture:
+            if self._frame is not None:
+                self._frame.release()
+            self._frame = self._ctx.framebuffer([picture], self._classes.depth_attachment)
+
+    def _release_classes(self) -> None:
+        for framebuffer in (self._frame, self._classes):
+            if framebuffer is not None:
+                framebuffer.release()
+        if self._classes is not None:
+            self._classes.depth_attachment.release()
+        self._frame, self._classes, self._classes_key = None, None, None
+
+    def _update_profile(self, scene: Scene) -> None:
+        inner, outer = plan.effective_disk_radii(scene)
+        key = (scene.disk.temperature_law, observer.effective_spin(scene), scene.disk.orbit, inner, outer)
+        if key == self._profile_key:
+            return
+        values = disk_profile.table(*key)
+        if "temperature_profile" not in self._tables:
+            self._tables["temperature_profile"] = _row(self._ctx, values[:, None])
+        self._tables["temperature_profile"].write(values.tobytes())
+        self._profile_key = key
+
+
+def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture]) -> None:
+    """Binds those of `samplers` (name → texture) that `program` uses, to texture units 0, 1, …"""
+    used = [name for name in samplers if name in program]
+    for unit, name in enumerate(used):
+        samplers[name].use(unit)
+        program[name].value = unit
+
+
+def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
+    """A one-row, linearly filtered float table from (entries, components)."""
+    texture = ctx.texture((len(values), 1), values.shape[1], np.ascontiguousarray(values, np.float32).tobytes(), dtype="f4", alignment=4)
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def _blackbody_table(ctx: moderngl.Context) -> moderngl.Texture:
+    return _row(ctx, np.load(assets_dir() / "blackbody.npy"))
+
+
+def _galaxy_band(ctx: moderngl.Context) -> moderngl.Texture:
+    with np.load(assets_dir() / "galaxy_band.npz") as stored:
+        root = np.ascontiguousarray(stored["root"])
+    texture = ctx.texture((root.shape[1], root.shape[0]), 3, root.tobytes(), alignment=1)
+    texture.build_mipmaps()
+    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+    texture.repeat_x, texture.repeat_y = True, False
+    return texture

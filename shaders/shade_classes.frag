@@ -1,0 +1,23 @@
+#version 330 core
+// Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
+// do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
+//
+//   0.2  captured or unresolved, crosses the disk     0.6  escaped, no disk
+//   0.4  captured or unresolved, no disk              0.8  escaped, crosses the disk
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/hits.glsl"
+#include "common/hit_map_read.glsl"
+#include "common/disk_edge.glsl"
+
+void main() {
+    Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
+    float cover = 0.0;
+#if ORDERS > 0
+    for (int n = 0; n < ORDERS; ++n)
+        cover += crossing_of(hits.crossing[n]).cover;
+#endif
+    bool disk = cover > 0.0;
+    gl_FragDepth = hits.fate == ESCAPED ? (disk ? 0.8 : 0.6) : (disk ? 0.2 : 0.4);
+}

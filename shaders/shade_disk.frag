@@ -1,0 +1,100 @@
+#version 330 core
+// Hit map and time → the disk's linear, scene-referred radiance (Rec. 709 primaries) and, as alpha, the share of light from
+// behind that still comes through. Runs only where shade_classes.frag found disk; the sky is added behind it by blending.
+//
+// Contract of a disk layer (shaders/disks/<key>.glsl):
+//   DiskMatter disk_layer_<key>(DiskMatter matter)
+//     changes matter.density, 1 on a smooth disk, keeping its mean near 1. Detail below matter.footprint must be faded out.
+//     Motion: shear_phase = (age₀, age₁, weight₀, weight₁) and shear_seed (blackhole_gl/shear.py): two patterns that are
+//     born, sheared and replaced in turn, so that the shear never winds up.
+//     Loops that run a known number of times are best written do … while: llvmpipe runs a for loop's body once too often.
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/observer.glsl"
+#include "common/hits.glsl"
+#include "common/hit_map_read.glsl"
+#include "common/colour.glsl"
+#include "common/disk_edge.glsl"
+#include "common/disk_orbit.glsl"
+
+uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/disk_profile.py
+
+out vec4 radiance;
+
+const float BRIGHTEST = 6.0e4;          // what a half float holds
+const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
+
+// What a ray meets where it crosses the disk.
+struct DiskMatter {
+    float radius;    // r_s
+    vec2 heading;    // (cos φ, sin φ)
+    vec2 footprint;  // of the pixel, in ln r and in φ
+    float density;   // 1 on a smooth disk
+};
+
+#slots disk_layer
+
+float disk_temperature(float r) {
+    float t = sqrt(clamp((r - disk_r_in) / (disk_r_out - disk_r_in), 0.0, 1.0));
+    return textureLod(temperature_profile, vec2(t, 0.5), 0.0).r;
+}
+
+// Radiance of the smooth disk. Gravity's part of g acts on colour and brightness, unless "redshift" is off; the Doppler part
+// on each by its own switch (common/disk_orbit.glsl says how g is split). The observer's own shift counts as gravity's.
+vec3 disk_radiance(float r, float lambda, float energy) {
+    vec2 shift = disk_shift(r, lambda);
+    float gravity = DISK_REDSHIFT == 1 ? shift.x * energy : 1.0;
+    float colour_shift = DISK_DOPPLER_COLOUR == 1 ? shift.y : 1.0;
+    float power_shift = DISK_BEAMING == 1 ? shift.y : 1.0;
+    float temperature = disk_temperature(r);
+    float power = temperature * temperature;
+    power *= power * pow(max(gravity * power_shift, 1e-6), disk_beaming_exponent);
+    return blackbody_colour(disk_temperature_k * temperature * gravity * colour_shift) * (power * disk_emission_strength * EMISSION_UNIT);
+}
+
+// Density → (brightness, share hidden of what lies behind), both for a piece of disk that covers the whole pixel.
+vec2 disk_appearance(float density) {
+#if DISK_COMPOSITING_OPACITY
+    // Optical depth is proportional to density. The source grows with its root, else dense filaments would saturate.
+    float clear = clamp(1.0 - disk_opacity, 1e-3, 0.999);
+    float hidden = 1.0 - pow(clear, density);
+    return vec2(sqrt(density) * hidden / (1.0 - clear), hidden);
+#else
+    return vec2(density, 0.0);
+#endif
+}
+
+// The light gathered so far (rgb) and what still comes through (a), after one more crossing.
+vec4 pass_disk(vec4 light, Crossing crossing, float lambda, float energy) {
+    float r = max(length(crossing.point), 1e-6);
+    vec2 heading = crossing.point / r;
+    vec2 across = vec2(-heading.y, heading.x);
+    vec2 radial = vec2(dot(crossing.right, heading), dot(crossing.up, heading));
+    vec2 around = vec2(dot(crossing.right, across), dot(crossing.up, across));
+    DiskMatter matter = DiskMatter(r, heading, vec2(length(radial), length(around)) / r, 1.0);
+#each disk_layer : matter = disk_layer_$key(matter);
+
+    vec2 look = disk_appearance(matter.density) * crossing.cover;
+    vec3 emission = disk_radiance(clamp(r, disk_r_in, disk_r_out), lambda, energy);
+    return vec4(light.rgb + light.a * look.x * emission, light.a * (1.0 - look.y));
+}
+
+void main() {
+    Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
+    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
+
+    // The crossings that count come first, in order; at least one does in every pixel that gets here.
+    Crossing first = crossing_of(hits.crossing[0]), second = crossing_of(hits.crossing[1]), third = crossing_of(hits.crossing[2]);
+    if (second.cover <= 0.0) { second = third; third.cover = 0.0; }
+    if (first.cover <= 0.0) { first = second; second = third; third.cover = 0.0; }
+
+    vec4 light = vec4(0.0, 0.0, 0.0, 1.0);
+    do {
+        light = pass_disk(light, first, hits.lambda, energy);
+        first = second;
+        second = third;
+        third.cover = 0.0;
+    } while (first.cover > 0.0);
+    radiance = vec4(clamp(light.rgb, 0.0, BRIGHTEST), light.a);
+}
