@@ -14,6 +14,7 @@ from ..fields import Field
 from ..scene import Scene, fields
 
 SMOOTHING_TIME = 0.09  # τ in seconds: fast enough to feel attached to the hand, slow enough to hide the wheel's notches
+_INSTANT_S = 1e-6  # no time at all: a rate over less would overflow
 _REST_DEG = 2e-3  # nearer than this to the target the camera is at rest, and the window may idle
 _REST_REACH = 2e-5
 
@@ -56,7 +57,7 @@ class Motion:
 
     def advanced(self, wanted: Pose, dt: float) -> Motion:
         """After `dt` seconds in which the target moved evenly to `wanted`."""
-        if dt <= 0.0:
+        if dt < _INSTANT_S:
             return replace(self, target=wanted)
         followed = [_follow(getattr(self.current, name), getattr(self.target, name), getattr(wanted, name), dt) for name in ("azimuth", "inclination", "reach")]
         current = Pose(*followed)

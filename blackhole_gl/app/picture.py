@@ -35,6 +35,13 @@ class Area:
     width: int
     height: int
 
+    @classmethod
+    def of_screen(cls, left: float, top: float, width: float, height: float, display_height: float, scale: tuple[float, float]) -> Area:
+        """The area of a rectangle in screen coordinates, from the top left, on a display with `scale` framebuffer pixels to a unit."""
+        x, right = round(left * scale[0]), round((left + width) * scale[0])
+        y, ceiling = round((display_height - top - height) * scale[1]), round((display_height - top) * scale[1])
+        return cls(x, y, right - x, ceiling - y)
+
     @property
     def is_empty(self) -> bool:
         return self.width < 1 or self.height < 1
@@ -73,7 +80,8 @@ class Picture:
         self.divisor = 1
         self._program = gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         self._triangle = gl.vertex_array(self._program, [])
-        self._target: moderngl.Framebuffer | None = None
+        self._shown: moderngl.Framebuffer | None = None
+        self._spare: moderngl.Framebuffer | None = None
         self._made_of: tuple | None = None
         self._cost_ms: dict[bool, float] = {}  # of a picture at full size, by whether the camera moves
         self._divisors: dict[bool, int] = {}
@@ -101,7 +109,8 @@ class Picture:
             return False
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
-        self.report = self.renderer.render(scene, time, size, target=self._target_of(size), measure=True)
+        self.report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True)
+        self._shown, self._spare = self._spare, self._shown
         took = self.report.trace_ms + self.report.shade_ms + self.report.post_ms
         self._cost_ms[camera_moving] = took * self.divisor**2
         self._rays_stale |= self.report.traced
@@ -115,8 +124,8 @@ class Picture:
 
     def read_rgb8(self) -> np.ndarray:
         """The picture as uint8 (height, width, 3), top row first."""
-        width, height = self._target.size
-        data = np.frombuffer(self._target.read(components=3, alignment=1), np.uint8)
+        width, height = self._shown.size
+        data = np.frombuffer(self._shown.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
     def _divisor_for(self, camera_moving: bool) -> int:
@@ -129,15 +138,16 @@ class Picture:
         self._divisors[camera_moving] = kept
         return kept
 
-    def _target_of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
-        if self._target is None or self._target.size != size:
-            if self._target is not None:
-                self._target.color_attachments[0].release()
-                self._target.release()
+    def _spare_of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+        """What the next picture goes into. The one shown is left alone: should rendering fail, it is the last good one."""
+        if self._spare is None or self._spare.size != size:
+            if self._spare is not None:
+                self._spare.color_attachments[0].release()
+                self._spare.release()
             texture = self._gl.texture(size, 4)
             texture.repeat_x = texture.repeat_y = False
-            self._target = self._gl.framebuffer([texture])
-        return self._target
+            self._spare = self._gl.framebuffer([texture])
+        return self._spare
 
     def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
         """Fills `area` of `window` with the picture, and the rest with black."""
@@ -145,9 +155,9 @@ class Picture:
         self._gl.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._gl.scissor = None
         window.clear()
-        if self._target is None or area.is_empty:
+        if self._shown is None or area.is_empty:
             return
         self._gl.viewport = (area.x, area.y, area.width, area.height)
-        self._target.color_attachments[0].use(0)
+        self._shown.color_attachments[0].use(0)
         self._program["area"].value = (area.x, area.y, area.width, area.height)
         self._triangle.render(moderngl.TRIANGLES, vertices=3)

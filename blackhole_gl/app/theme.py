@@ -28,7 +28,7 @@ def apply() -> None:
         col.text: TEXT, col.text_disabled: DIM, col.window_bg: _grey(0.075), col.popup_bg: _grey(0.10, 0.98), col.border: _grey(0.22, 0.6),
         col.frame_bg: _grey(0.145), col.frame_bg_hovered: _grey(0.20), col.frame_bg_active: _grey(0.23),
         col.title_bg: _grey(0.06), col.title_bg_active: _grey(0.085), col.title_bg_collapsed: _grey(0.06),
-        col.slider_grab: _accent(0.75), col.slider_grab_active: ACCENT, col.check_mark: ACCENT,
+        col.slider_grab: _accent(0.5), col.slider_grab_active: _accent(0.8), col.check_mark: ACCENT,
         col.button: _grey(0.17), col.button_hovered: _grey(0.25), col.button_active: _accent(0.55),
         col.header: _grey(0.14), col.header_hovered: _grey(0.21), col.header_active: _accent(0.40),
         col.tab: _grey(0.085), col.tab_hovered: _grey(0.22), col.tab_selected: _grey(0.14), col.tab_dimmed: _grey(0.07), col.tab_dimmed_selected: _grey(0.12),

@@ -14,6 +14,7 @@ import moderngl
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme
+from .full_screen import FullScreen
 from .panel import Panel
 from .picture import Area, Picture
 from .shortcuts import Shortcuts
@@ -81,12 +82,15 @@ def run(
         WindowError: no display, or no OpenGL 3.3.
     """
     _open_platform(null_platform)
-    window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer)
-    params = _runner_params(window, size, null_platform)
+    window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, may_idle=not null_platform)
+    params = _runner_params(window, size)
     if driver is not None:
         params.use_imgui_test_engine = True
         params.callbacks.register_tests = lambda: driver.register(window)
-    immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams())
+    try:
+        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams())
+    except RuntimeError as error:
+        raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
     try:
         while not params.app_shall_exit and not (driver is not None and driver.finished):
             immapp.manual_render.render()
@@ -112,7 +116,7 @@ def _default_renderer(gl: moderngl.Context) -> Any:
     return Renderer(gl)
 
 
-def _runner_params(window: Window, size: tuple[int, int], null_platform: bool) -> hello_imgui.RunnerParams:
+def _runner_params(window: Window, size: tuple[int, int]) -> hello_imgui.RunnerParams:
     params = hello_imgui.RunnerParams()
     params.app_window_params.window_title = TITLE
     params.app_window_params.window_geometry.size = size
@@ -124,7 +128,7 @@ def _runner_params(window: Window, size: tuple[int, int], null_platform: bool) -
     )
     params.fps_idling.fps_idle = _IDLE_FPS
     params.fps_idling.time_active_after_last_event = 0.5
-    params.fps_idling.enable_idling = not null_platform
+    params.fps_idling.enable_idling = False  # until the first picture is there
     params.docking_params.main_dock_space_node_flags = (imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.auto_hide_tab_bar).value
     params.docking_params.docking_splits = [hello_imgui.DockingSplit(_DOCK_SPACE, "Right", imgui.Dir.right, _PANEL_SHARE)]
     panel = hello_imgui.DockableWindow(PANEL, "Right", window.draw_panel)
@@ -156,19 +160,25 @@ class Window:
         preset_names: what it was made from.
         picture_folder: where pictures go.
         make_renderer: see `run`.
+        may_idle: whether to sleep while nothing moves; a driver's input would not wake the window.
     """
 
-    def __init__(self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any]):
-        self.state = WindowState.start(scene, preset_switch.chosen_among(preset_names))
+    def __init__(self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool):
+        self.open(scene, preset_names)
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
         self.picture: Picture | None = None
         self._shortcuts = Shortcuts(self.bindings)
-        self._panel = Panel()
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
+        self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
+
+    def open(self, scene: Scene, preset_names: Iterable[str] = ()) -> None:
+        """Starts afresh on `scene`, made from the presets of these names."""
+        self.state = WindowState.start(scene, preset_switch.chosen_among(preset_names))
+        self._panel = Panel()
 
     def _read_keys(self) -> keys.Bindings:
         try:
@@ -183,12 +193,14 @@ class Window:
         """Once, when the context is there."""
         self._gl = moderngl.create_context(require=330)
         self.picture = Picture(self._gl, self._make_renderer(self._gl))
+        self._full_screen = FullScreen(_glfw_window())
 
     def before_frame(self) -> None:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
-        params.fps_idling.enable_idling = not self.state.is_moving
+        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or not self.state.is_moving)
+        self._full_screen.set(self.state.full_screen)
 
     def frame(self) -> None:
         """The hand's doings, and what is written over the picture."""
@@ -213,7 +225,7 @@ class Window:
     def draw_picture(self) -> None:
         """Renders what changed and fills the free part of the window."""
         view = self.view()
-        if view.area.is_empty or glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED):
+        if view.area.is_empty or self._is_minimised():
             return
         window = self._gl.detect_framebuffer()
         self._render(view.area)
@@ -232,8 +244,6 @@ class Window:
             scene_files.take(state, imgui.get_clipboard_text())
         else:
             commands.COMMANDS[action](state)
-        if action == "full_screen":
-            _set_full_screen(state.full_screen)
 
     def view(self) -> _View:
         """Where the picture goes now."""
@@ -242,10 +252,11 @@ class Window:
         dock_space = docking.dock_space_id_from_name(_DOCK_SPACE)
         node = imgui.internal.dock_builder_get_central_node(dock_space) if dock_space else None
         left, top, width, height = (node.pos.x, node.pos.y, node.size.x, node.size.y) if node else (0.0, 0.0, io.display_size.x, io.display_size.y)
-        across, up = io.display_framebuffer_scale.x, io.display_framebuffer_scale.y
-        x, right = round(left * across), round((left + width) * across)
-        y, ceiling = round((io.display_size.y - top - height) * up), round((io.display_size.y - top) * up)
-        return _View(left, top, width, height, Area(x, y, right - x, ceiling - y))
+        scale = io.display_framebuffer_scale
+        return _View(left, top, width, height, Area.of_screen(left, top, width, height, io.display_size.y, (scale.x, scale.y)))
+
+    def _is_minimised(self) -> bool:
+        return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
 
     def _mouse(self, view: _View) -> tuple[tuple[float, float], float]:
         """The drag over the picture, in heights of the picture, and the wheel's notches."""
@@ -266,8 +277,10 @@ class Window:
         try:
             rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=not state.motion.at_rest or state.dragging)
         except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
-            state.render_error = str(error) or type(error).__name__
-            traceback.print_exc()
+            text = str(error) or type(error).__name__
+            if text != state.render_error:  # once, and not for every frame of a drag
+                traceback.print_exc()
+            state.render_error = text
             return
         if rendered:
             state.render_error = None
@@ -299,9 +312,3 @@ def _glfw_window() -> Any:
     from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 
     return glfw_window_hello_imgui()
-
-
-def _set_full_screen(on: bool) -> None:
-    modes = hello_imgui.FullScreenMode
-    geometry = hello_imgui.get_runner_params().app_window_params.window_geometry
-    geometry.full_screen_mode = modes.full_monitor_work_area if on else modes.no_full_screen

@@ -1,10 +1,12 @@
-"""Runs one scenario of `scenarios.py` in a window without a display, and says by its exit status whether all checks held.
+"""Runs scenarios of ``scenarios.py``, one after the other, in a window without a display.
 
-    python tests/app/drive.py orbit_by_drag
+    python tests/app/drive.py orbit_by_drag help_window
 
-Each scenario has a process of its own: Hello ImGui cannot be started twice in one.
+Says which failed, and by its exit status whether any did. It is a process of its own because Hello ImGui cannot be started
+twice in one. Scenarios with the real renderer and those without do not mix.
 """
 
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -20,41 +22,65 @@ from blackhole_gl import presets  # noqa: E402
 from blackhole_gl.app import window  # noqa: E402
 
 SIZE = (900, 640)
+PRESETS = ["kerr", "low"]
 
 
-class TestDriver:
-    """Hands a scenario to the ImGui test engine; see `blackhole_gl.app.window.Driver`."""
+class EngineDriver:
+    """Hands scenarios to the ImGui test engine; see `blackhole_gl.app.window.Driver`."""
 
-    def __init__(self, scenario, folder: Path):
-        self._scenario, self._folder, self._test = scenario, folder, None
-        self.finished = self.passed = False
+    def __init__(self, chosen, folder: Path):
+        self._left, self._folder = list(chosen), folder
+        self.failed: list[str] = []
+
+    @property
+    def finished(self) -> bool:
+        return not self._left
 
     def register(self, app: window.Window) -> None:
         engine = hello_imgui.get_imgui_test_engine()
         imgui.test_engine.get_io(engine).config_run_speed = imgui.test_engine.TestRunSpeed.fast
-        self._test = imgui.test_engine.register_test(engine, "window", self._scenario.__name__)
-        self._test.test_func = lambda context: self._run(scenarios.Hands(context, app, self._folder))
-        imgui.test_engine.queue_test(engine, self._test)
+        self._tests = [self._queue(engine, scenario, app) for scenario in self._left]
 
-    def _run(self, hands: scenarios.Hands) -> None:
+    def _queue(self, engine, scenario, app: window.Window):
+        test = imgui.test_engine.register_test(engine, "window", scenario.__name__)
+        test.test_func = lambda context: self._run(scenario, context, test, app)
+        imgui.test_engine.queue_test(engine, test)
+        return test
+
+    def _run(self, scenario, context, test, app: window.Window) -> None:
+        folder = self._folder / scenario.__name__
+        folder.mkdir()
+        self.failed.append(scenario.__name__)
         try:
-            self._scenario(hands)
+            app.open(presets.load(PRESETS), PRESETS)
+            scenario(scenarios.Hands(context, app, folder))
             # What the engine could not find or click is an error of its own, which raises nothing.
-            self.passed = not hands.context.is_error()
+            if not context.is_error():
+                self.failed.remove(scenario.__name__)
         finally:
-            self.finished = True
-            if not self.passed:
-                print(self._test.output.log.get_text())
+            if scenario.__name__ in self.failed:
+                print(f"{scenario.__name__} failed. {test.output.log.get_text()}")
+            self._left.remove(scenario)
+
+
+def real_renderer(folder: Path):
+    """A maker of the renderer that draws with a copy of the shaders, ``folder/shaders``, which a scenario may edit."""
+    from blackhole_gl import resources
+    from blackhole_gl.render import frame, programs
+
+    copy = shutil.copytree(resources.shaders_dir(), folder / "shaders")
+    programs.shaders_dir = lambda: copy
+    return frame.Renderer
 
 
 def main() -> int:
-    scenario = getattr(scenarios, sys.argv[1])
-    renderer = None if getattr(scenario, "needs_renderer", False) else FakeRenderer
+    chosen = [getattr(scenarios, name) for name in sys.argv[1:]]
     with tempfile.TemporaryDirectory() as folder:
-        driver = TestDriver(scenario, Path(folder))
-        scene = presets.load(["kerr", "low"])
-        window.run(scene, preset_names=["kerr", "low"], null_platform=True, size=SIZE, picture_folder=Path(folder), make_renderer=renderer, driver=driver)
-    return 0 if driver.passed else 1
+        real = any(scenario in scenarios.WITH_THE_REAL_RENDERER for scenario in chosen)
+        maker = real_renderer(Path(folder)) if real else FakeRenderer
+        driver = EngineDriver(chosen, Path(folder))
+        window.run(presets.load(PRESETS), null_platform=True, size=SIZE, picture_folder=Path(folder) / "picture_saved", make_renderer=maker, driver=driver)
+    return len(driver.failed)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,9 @@ Each function takes `Hands` and raises AssertionError when something is not as i
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
+from typing import Callable
 
 from imgui_bundle import imgui
 
@@ -259,6 +261,16 @@ def renderer_failure_is_shown(hands: Hands) -> None:
     assert hands.state.render_error is None
 
 
+def full_screen_and_back(hands: Hands) -> None:
+    before = hands.window.view()
+    hands.press(Key.f11)
+    hands.context.yield_(4)
+    assert hands.window.view().height > before.height
+    hands.press(Key.f11)
+    hands.context.yield_(4)
+    assert hands.window.view() == before
+
+
 def still_picture_is_kept(hands: Hands) -> None:
     hands.press(Key.p)
     hands.settle()
@@ -267,3 +279,41 @@ def still_picture_is_kept(hands: Hands) -> None:
     hands.context.yield_(20)
     assert len(hands.window.picture.renderer.calls) == drawn
     assert not hands.state.is_moving
+
+
+def real_picture(hands: Hands) -> None:
+    hands.press(Key.p)
+    hands.settle()
+    hands.context.yield_(4)
+    picture = hands.window.picture
+    first = picture.read_rgb8()
+    assert hands.state.render_error is None
+    assert first.max() > 100 and first.min() == 0, "there is light, and there is the shadow"
+    assert picture.rays.unresolved == 0 and picture.rays.steps > 1
+    hands.press(Key.space)
+    hands.context.yield_(4)
+    without_disk = picture.read_rgb8()
+    assert without_disk.astype(int).sum() < 0.5 * first.astype(int).sum()
+
+
+def shader_edited(hands: Hands) -> None:
+    hands.context.yield_(3)
+    file = hands.folder.parent / "shaders" / "trace.frag"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text + "\nfloat broken = ;\n", encoding="utf-8")
+    _wait(hands, lambda: hands.state.shader_error is not None)
+    assert f"trace.frag:{text.count(chr(10)) + 2}" in hands.state.shader_error, hands.state.shader_error
+    assert hands.state.render_error is None, "the last good program goes on"
+    file.write_text(text, encoding="utf-8")
+    _wait(hands, lambda: hands.state.shader_error is None)
+
+
+def _wait(hands: Hands, for_what: Callable[[], bool]) -> None:
+    """Lets frames pass until `for_what`, two seconds at most: twice what an edit may take."""
+    started = time.monotonic()
+    while not for_what():
+        assert time.monotonic() - started < 2.0, "nothing happened"
+        hands.context.yield_()
+
+
+WITH_THE_REAL_RENDERER = (real_picture, shader_edited)

@@ -1,6 +1,7 @@
-"""The window without a display: each scenario of ``scenarios.py`` in a process of its own."""
+"""The window without a display: the scenarios of ``scenarios.py``, driven by the ImGui test engine."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,18 +10,26 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 # Read as text: importing scenarios.py would load imgui into the test process, where a later test may want another GLFW.
-SCENARIOS = [line.split()[1].partition("(")[0] for line in (HERE / "scenarios.py").read_text(encoding="utf-8").splitlines() if line.startswith("def ")]
+TEXT = (HERE / "scenarios.py").read_text(encoding="utf-8")
+SCENARIOS = re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE)
+REAL = re.findall(r"\w+", re.search(r"^WITH_THE_REAL_RENDERER = \((.*)\)", TEXT, re.MULTILINE)[1])
+PRETENDED = [name for name in SCENARIOS if name not in REAL]
 
 
-@pytest.mark.parametrize("scenario", SCENARIOS)
-def test_scenario(scenario, tmp_path):
-    """Checks one scenario.
-
-    Args:
-        scenario: name of a function in ``scenarios.py``.
-        tmp_path: stands for the user's configuration folder.
-    """
+def run(names: list[str], folder: Path) -> None:
+    """Runs scenarios in one process; `folder` stands for the user's configuration folder."""
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    environment["BLACKHOLE_GL_CONFIG_DIR"] = str(tmp_path)
-    done = subprocess.run([sys.executable, str(HERE / "drive.py"), scenario], env=environment, capture_output=True, text=True, timeout=60)
+    environment["BLACKHOLE_GL_CONFIG_DIR"] = str(folder)
+    done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+# A process takes seconds to start, so each runs a few; two parts keep two workers busy.
+@pytest.mark.parametrize("names", [PRETENDED[0::2], PRETENDED[1::2]], ids=["even", "odd"])
+def test_scenarios_with_a_pretended_renderer(names, tmp_path):
+    run(names, tmp_path)
+
+
+@pytest.mark.parametrize("name", REAL)
+def test_scenario_with_the_real_renderer(name, tmp_path):
+    run([name], tmp_path)
