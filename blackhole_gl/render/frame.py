@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time as clock
 from dataclasses import dataclass
+from typing import Callable
 
 import moderngl
 import numpy as np
@@ -15,6 +16,10 @@ from .hit_map import HitArrays, HitMap
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
+
+
+TILE = 512
+"""Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
 
 
 @dataclass(frozen=True)
@@ -87,24 +92,45 @@ class Renderer:
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return FrameReport(trace_ms, shade_ms, post_ms, traced, ray_plan.method, ray_plan.reasons)
 
-    def render_supersampled(self, scene: Scene, time: float, size: tuple[int, int], samples: int) -> None:
-        """Draws `scene` into the own picture with `samples`² rays a pixel on a regular grid; their radiance is averaged."""
-        ray_plan = plan.plan(scene)
-        total = np.zeros((size[1], size[0], 4))
-        for index in range(samples * samples):
-            shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
-            self._trace(scene, ray_plan, time, size, (shift[0], shift[1]))
-            self._shade_into(scene, ray_plan, size)
-            total += self._radiance_array()
-        texture = self._radiance.color_attachments[0]
-        texture.write((total / samples**2).astype(np.float16).tobytes())
-        self._post.draw(scene, ray_plan, texture, self._own_picture(size), (0, 0, *size))
+    def render_still(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1, progress: Callable[[float], None] | None = None) -> None:
+        """Draws `scene` into the own picture in tiles, so that no single draw call is long enough for a GPU's watchdog.
 
-    def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, plan.RayPlan]:
-        """Hits of listed local directions (N, 3) (`observer.local_directions`) by the shader that pictures use, and the plan used."""
+        Args:
+            samples: rays a pixel along each axis, on a regular grid; their radiance is averaged.
+            progress: called with the share done, 0…1.
+
+        Raises:
+            As `render`.
+        """
+        ray_plan = plan.plan(scene)
+        width, height = size
+        total = np.zeros((height, width, 4), np.float32)
+        tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
+        passes = [(tile, index) for tile in tiles for index in range(samples * samples)]
+        for done, ((x, y), index) in enumerate(passes):
+            shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
+            tile = min(TILE, width - x), min(TILE, height - y)
+            self._trace(scene, ray_plan, time, tile, (x + shift[0], y + shift[1]), picture=size)
+            self._shade_into(scene, ray_plan, tile)
+            total[y : y + tile[1], x : x + tile[0]] += self._radiance_array() / samples**2
+            if progress is not None:
+                progress((done + 1) / len(passes))
+        texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
+        self._post.draw(scene, ray_plan, texture, self._own_picture(size), (0, 0, *size))
+        texture.release()
+
+    def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, plan.RayPlan]:
+        """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use.
+
+        Returns:
+            Their hits; the exact g of each kept crossing, float32 (N, 3), 0 where there is none; the plan used.
+        """
         ray_plan = plan.plan(scene, keep_crossings=True)
         self._bind(scene, ray_plan, 0.0, (1, 1), (0.0, 0.0))
-        return self.hit_map.trace_listed(scene, ray_plan, directions), ray_plan
+        self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        hits = self.hit_map.trace_listed(scene, ray_plan, directions)
+        shifts = self.hit_map.emission_shifts(scene, ray_plan).reshape(-1, 3)[: len(directions)]
+        return hits, shifts, ray_plan
 
     def read_rgb8(self) -> np.ndarray:
         """The own picture as uint8 (height, width, 3), top row first."""
@@ -134,8 +160,8 @@ class Renderer:
         self._radiance = self._picture = None
         self._buffers = {}
 
-    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> bool:
-        ray_bytes = self._bind(scene, ray_plan, time, size, offset)
+    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float], picture: tuple[int, int] | None = None) -> bool:
+        ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         return self.hit_map.trace(scene, ray_plan, ray_bytes, size)
 

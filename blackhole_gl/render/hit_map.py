@@ -80,6 +80,22 @@ class HitMap:
         found = self.read()
         return HitArrays(*(getattr(found, name).reshape(height * width, *getattr(found, name).shape[2:])[:count] for name in HitArrays.__dataclass_fields__))
 
+    def emission_shifts(self, scene: Scene, ray_plan: RayPlan) -> np.ndarray:
+        """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none. The uniform blocks are bound."""
+        width, height = self.textures[0].size
+        triangle = self._programs.get("probe.frag", scene, ray_plan)
+        for unit, texture in enumerate(self.textures):
+            if f"hits{unit}" in triangle.program:
+                triangle.program[f"hits{unit}"].value = unit
+                texture.use(unit)
+        target = self._ctx.framebuffer([self._ctx.texture((width, height), 4, dtype="f4")])
+        target.use()
+        draw(triangle)
+        values = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3]
+        target.color_attachments[0].release()
+        target.release()
+        return values
+
     def read(self) -> HitArrays:
         """The map as arrays of shape (height, width, …)."""
         width, height = self.textures[0].size

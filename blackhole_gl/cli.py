@@ -1,0 +1,211 @@
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, check and presets."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import Annotated, Callable, Optional
+
+import typer
+
+from . import presets as preset_files
+from .scene import Scene, SceneError
+
+app = typer.Typer(
+    name="blackhole-gl",
+    help="Black holes in real time, with an error bar. Without a command: view.",
+    no_args_is_help=False,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Presets = Annotated[
+    Optional[list[str]],
+    typer.Option("--preset", "-p", help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.", show_default="kerr"),
+]
+Settings = Annotated[Optional[list[str]], typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12. Repeatable.")]
+Backend = Annotated[str, typer.Option(help="How to get a GL context without a window: auto, egl or osmesa.", envvar="BLACKHOLE_GL_BACKEND")]
+
+
+def main() -> None:
+    """Runs the command line; mistakes end in one sentence and exit status 2."""
+    from .glsl.compose import ShaderError
+    from .render.context import ContextError
+
+    try:
+        app()
+    except (SceneError, ShaderError, ContextError, ValueError, OSError) as error:
+        print(f"blackhole-gl: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+@app.callback(invoke_without_command=True)
+def default(context: typer.Context) -> None:
+    """Black holes in real time, with an error bar. Without a command: view."""
+    if context.invoked_subcommand is None:
+        view()
+
+
+@app.command()
+def view(
+    preset: Presets = None,
+    set_: Settings = None,
+    size: Annotated[str, typer.Option(help="Width × height of the window.")] = "1280x800",
+) -> None:
+    """Open the viewer. Without a display: write a picture and say where."""
+    from .self_check import display_present
+
+    scene = _scene(preset, set_)
+    if not display_present():
+        out = Path("blackhole.png").resolve()
+        print("There is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can be opened.")
+        print("Rendering the scene to a picture instead …", flush=True)
+        _render(scene, (1280, 720), 0.0, out, 1, "auto")
+        print(f"Written: {out}")
+        return
+    from .app import window
+
+    window.run(scene, preset_names=preset or preset_files.DEFAULT_PRESETS, size=_size(size))
+
+
+@app.command()
+def render(
+    out: Annotated[Path, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene.")],
+    preset: Presets = None,
+    set_: Settings = None,
+    size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
+    time: Annotated[Optional[float], typer.Option(help="Scene time in r_s/c. When not given: that of a PNG preset, or 0.", show_default=False)] = None,
+    supersample: Annotated[int, typer.Option(min=1, max=16, help="Rays a pixel along each axis.")] = 1,
+    backend: Backend = "auto",
+) -> None:
+    """Render a picture without a window. The same scene, time and size give the same file."""
+    scene = _scene(preset, set_)
+    _render(scene, _size(size), _time(time, preset), out, supersample, backend)
+
+
+@app.command()
+def trace(
+    rays: Annotated[Path, typer.Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a ray.")],
+    preset: Presets = None,
+    set_: Settings = None,
+    float64: Annotated[bool, typer.Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
+    backend: Backend = "auto",
+) -> None:
+    """Trace listed rays through the shader that pictures use.
+
+    psi is the angle from the direction to the hole's centre, chi the angle on the screen from right (+e_φ) towards up (north).
+    """
+    from . import listed_rays
+
+    scene = _scene(preset, set_)
+    listed = listed_rays.read(rays, scene)
+    if float64:
+        found = listed_rays.trace_by_reference(scene, listed)
+    else:
+        found = listed_rays.trace_by_shader(_renderer(backend), scene, listed)
+    listed_rays.write(out, found, 17 if float64 else 9)
+
+
+@app.command()
+def check() -> None:
+    """Say what works on this machine, and the line that mends what does not. Exit status 1 when no pictures can be made."""
+    from . import self_check
+
+    found = []
+    for finding in self_check.findings():
+        mark = {True: "ok  ", False: "FAIL", None: "    "}[finding.works]
+        print(f"{mark}  {finding.name:14} {finding.text}", flush=True)
+        found.append(finding)
+    if not self_check.good_enough(found):
+        raise typer.Exit(1)
+
+
+@app.command()
+def presets(
+    name: Annotated[Optional[str], typer.Argument(help="Show this preset's values as TOML.")] = None,
+) -> None:
+    """List the presets, or show one."""
+    if name is not None:
+        print(preset_files.dumps(preset_files.load([name]), full=True), end="")
+        return
+    group = ""
+    for info in preset_files.available():
+        if info.group != group:
+            group = info.group
+            print(f"{group}:")
+        print(f"  {info.name:20} {info.title}")
+
+
+def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
+    return preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
+
+
+def _time(time: float | None, names: list[str] | None) -> float:
+    """The time asked for, or that of the last PNG among the presets."""
+    if time is not None:
+        return time
+    times = [preset_files.read(name).time for name in names or () if name.lower().endswith(".png")]
+    return float(times[-1] or 0.0) if times else 0.0
+
+
+def _size(text: str) -> tuple[int, int]:
+    """(width, height) of ``1280x720``.
+
+    Raises:
+        ValueError: not of that form, or not 1…16384 pixels each.
+    """
+    match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip())
+    size = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not all(1 <= side <= 16384 for side in size):
+        raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
+    return size
+
+
+def _renderer(backend: str):
+    from .render.context import create_headless
+    from .render.frame import Renderer
+
+    return Renderer(create_headless(backend))
+
+
+def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
+    from .output import png
+
+    renderer = _renderer(backend)
+    with _Progress("rendering") as progress:
+        renderer.render_still(scene, time, size, samples, progress)
+    png.write(out, renderer.read_rgb8(), preset_files.picture_text(scene, time))
+
+
+class _Progress:
+    """A line on standard error that shows the share done, once a second has passed."""
+
+    def __init__(self, label: str):
+        self._label, self._bar = label, None
+
+    def __enter__(self) -> Callable[[float], None]:
+        import time
+
+        self._start = time.monotonic()
+        self._clock = time.monotonic
+        return self._show
+
+    def _show(self, share: float) -> None:
+        elapsed = self._clock() - self._start
+        if elapsed < 1.0 and self._bar is None:
+            return
+        if self._bar is None:
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self._bar = Progress(console=Console(stderr=True), transient=True)
+            self._task = self._bar.add_task(self._label, total=1.0)
+            self._bar.start()
+        self._bar.update(self._task, completed=share)
+
+    def __exit__(self, *_) -> None:
+        if self._bar is not None:
+            self._bar.stop()

@@ -1,0 +1,158 @@
+"""Rays given as a list: read from CSV, traced by the pictures' own shader or by the float64 twin, written as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Iterable
+
+import numpy as np
+
+from . import observer, reference, relativity
+from .output.files import write_whole
+from .render.frame import Renderer
+from .scene import Scene
+
+FATES = ("unresolved", "escaped", "captured")
+ANGLES = ("psi", "chi")
+SCREEN = ("alpha", "beta")
+_CROSSINGS = 3
+
+
+class RayListError(ValueError):
+    """A ray list that cannot be used; the text names file, line and column."""
+
+
+@dataclass(frozen=True)
+class TracedRays:
+    """What became of N rays.
+
+    Attributes:
+        fate: int (N,), an index of `FATES`.
+        direction: (N, 3) asymptotic unit vectors in the world; NaN unless escaped.
+        steps, evaluations: int (N,).
+        crossing_r, crossing_phi, crossing_g: (N, 3); r in r_s, φ in radians (any branch), g = E_infinity/E_emitter of a circular
+            emitter; NaN where there is none, and g also inside the ISCO.
+    """
+
+    fate: np.ndarray
+    direction: np.ndarray
+    steps: np.ndarray
+    evaluations: np.ndarray
+    crossing_r: np.ndarray
+    crossing_phi: np.ndarray
+    crossing_g: np.ndarray
+
+
+def columns(scene: Scene) -> tuple[str, str]:
+    """The columns that a ray list for `scene` has: angles, or screen coordinates for a camera at infinity."""
+    return SCREEN if math.isinf(scene.camera.distance) else ANGLES
+
+
+def read(path: Path, scene: Scene) -> np.ndarray:
+    """The rays of the CSV file at `path` as (N, 2) float64: ψ, χ in radians, or α, β in M for a camera at infinity.
+
+    Raises:
+        RayListError: no such columns, or a value that is no finite number.
+        OSError: the file cannot be read.
+    """
+    wanted = columns(scene)
+    with open(path, newline="", encoding="utf-8-sig") as file:
+        reader = csv.DictReader(file, skipinitialspace=True)
+        names = [name.strip() for name in reader.fieldnames or ()]
+        if missing := [name for name in wanted if name not in names]:
+            raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {','.join(names) or 'nothing'}")
+        reader.fieldnames = names
+        rows = [[_number(row[name], path, reader.line_num, name) for name in wanted] for row in reader]
+    return np.array(rows, float).reshape(-1, 2)
+
+
+def _number(text: str | None, path: Path, line: int, column: str) -> float:
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not math.isfinite(value):
+        raise RayListError(f"{path}, line {line}, column {column}: got {text!r}; allowed is a finite number")
+    return value
+
+
+def local_vectors(rays: np.ndarray, scene: Scene) -> np.ndarray:
+    """The local vectors (N, 3) of rays (N, 2) as `read` gives them."""
+    return (observer.parallel_rays if columns(scene) == SCREEN else observer.local_directions)(rays[:, 0], rays[:, 1])
+
+
+def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> TracedRays:
+    """`rays` (N, 2) through the shader that pictures use."""
+    if len(rays) == 0:
+        return _nothing()
+    hits, shifts, ray_plan = renderer.trace_listed(scene, local_vectors(rays, scene))
+    r = np.hypot(hits.crossing[..., 0].astype(float), hits.crossing[..., 1])
+    phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
+    none = r == 0.0
+    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
+    return TracedRays(
+        hits.fate,
+        np.where((hits.fate == 1)[:, None], hits.direction.astype(float), np.nan),
+        hits.steps,
+        hits.steps * ray_plan.evaluations_per_step,
+        np.where(none, np.nan, r),
+        np.where(none, np.nan, phi),
+        np.where(none | (r < isco), np.nan, shifts.astype(float)),
+    )
+
+
+def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
+    """`rays` (N, 2) by the float64 twin of the scene's ray model."""
+    if len(rays) == 0:
+        return _nothing()
+    camera = scene.camera
+    given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
+    drag = {"drag": scene.get("rays.kerr_like.drag")} if scene.rays.model == "kerr_like" else {}
+    found = reference.trace(
+        observer.ray_model(scene).key,
+        spin=observer.effective_spin(scene),
+        distance=camera.distance,
+        inclination_deg=camera.inclination_deg,
+        azimuth_deg=camera.azimuth_deg,
+        observer=camera.observer,
+        gravity_strength=scene.hole.gravity_strength,
+        horizon_size=scene.hole.horizon_size,
+        orders=_CROSSINGS,
+        orbit=scene.disk.orbit,
+        **given,
+        **drag,
+    )
+    kept = np.arange(_CROSSINGS) < scene.rays.orders
+    direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
+    crossings = (np.where(kept, values, np.nan) for values in (found.crossing_r, found.crossing_phi, found.g))
+    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, *crossings)
+
+
+def _nothing() -> TracedRays:
+    empty = np.zeros((0, _CROSSINGS))
+    none = np.zeros(0, int)
+    return TracedRays(none, empty, none, none, empty, empty, empty)
+
+
+def write(path: Path, rays: TracedRays, digits: int) -> None:
+    """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty."""
+    theta = np.arctan2(np.hypot(rays.direction[:, 0], rays.direction[:, 1]), rays.direction[:, 2])
+    phi = np.arctan2(rays.direction[:, 1], rays.direction[:, 0])
+    header = ["fate", "theta", "phi", "steps", "evaluations"]
+    header += [f"{name}{n}" for n in range(_CROSSINGS) for name in ("r", "phi", "g")]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    for i, fate in enumerate(rays.fate):
+        crossings = [values[i, n] for n in range(_CROSSINGS) for values in (rays.crossing_r, rays.crossing_phi, rays.crossing_g)]
+        ends = _texts((theta[i], phi[i]), digits)
+        writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *_texts(crossings, digits)])
+    write_whole(path, text.getvalue().encode())
+
+
+def _texts(values: Iterable[float], digits: int) -> list[str]:
+    return ["" if math.isnan(value) else f"{value:.{digits}g}" for value in values]
