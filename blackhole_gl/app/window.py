@@ -262,12 +262,14 @@ class Window:
         """The drag over the picture, in heights of the picture, and the wheel's notches."""
         io, state = imgui.get_io(), self.state
         over_picture = not io.want_capture_mouse
-        if imgui.is_mouse_clicked(imgui.MouseButton_.left) and over_picture:
+        begins = imgui.is_mouse_clicked(imgui.MouseButton_.left) and over_picture
+        if begins:
             state.dragging = True
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             state.dragging = False
         wheel = io.mouse_wheel if over_picture else 0.0
-        if not state.dragging or view.height < 1.0:
+        # In the frame of the click the mouse may have come from anywhere.
+        if not state.dragging or begins or view.height < 1.0:
             return (0.0, 0.0), wheel
         return (io.mouse_delta.x / view.height, io.mouse_delta.y / view.height), wheel
 

@@ -79,7 +79,7 @@ def main() -> int:
         real = any(scenario in scenarios.WITH_THE_REAL_RENDERER for scenario in chosen)
         maker = real_renderer(Path(folder)) if real else FakeRenderer
         driver = EngineDriver(chosen, Path(folder))
-        window.run(presets.load(PRESETS), null_platform=True, size=SIZE, picture_folder=Path(folder) / "picture_saved", make_renderer=maker, driver=driver)
+        window.run(presets.load(PRESETS), null_platform=True, size=SIZE, picture_folder=Path(folder) / scenarios.PICTURES, make_renderer=maker, driver=driver)
     return len(driver.failed)
 
 
