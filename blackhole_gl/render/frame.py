@@ -92,6 +92,17 @@ class Renderer:
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return FrameReport(trace_ms, shade_ms, post_ms, traced, ray_plan.method, ray_plan.reasons)
 
+    def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None) -> float:
+        """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""
+        ray_plan = ray_plan or plan.plan(scene)
+        self.programs.get("trace.frag", scene, ray_plan)
+        self.hit_map.forget()
+        self.ctx.finish()
+        start = clock.perf_counter()
+        self._trace(scene, ray_plan, 0.0, size, (0.0, 0.0))
+        self.ctx.finish()
+        return clock.perf_counter() - start
+
     def render_still(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1, progress: Callable[[float], None] | None = None) -> None:
         """Draws `scene` into the own picture in tiles, so that no single draw call is long enough for a GPU's watchdog.
 

@@ -60,6 +60,10 @@ class HitMap:
         self.traces += 1
         return True
 
+    def forget(self) -> None:
+        """The next `trace` traces, whatever is kept."""
+        self._key = None
+
     def trace_listed(self, scene: Scene, ray_plan: RayPlan, directions: np.ndarray) -> HitArrays:
         """Hits of listed local directions (N, 3) instead of pixels. The uniform blocks are bound."""
         count = len(directions)

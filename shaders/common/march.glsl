@@ -27,30 +27,43 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 }
 #endif
 
+// The inner loop only steps: software renderers run every branch of a loop body in every round, so what happens once a ray or
+// once a crossing stands outside it.
 Hits trace_ray(RayStart start) {
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
     State s = ray_init(start, orbit, hits);
+    State next = s;
+    float h = 0.0;
+    float end = 1.0;
+    int fate = UNRESOLVED;
+    int steps = 0;
 #if ORDERS > 0
     float side = sign(ray_height(s));  // 0: the camera's own place in the plane does not count
 #endif
-    for (int i = 0; i < plan_max_steps; ++i) {
-        float h = step_size(orbit, s);
-        State next = integrator_step(orbit, s, h);
-        int fate = ray_fate(orbit, next);
-        float end = fate == ESCAPED ? ray_end(orbit, s, next, h) : 1.0;
+    for (int leg = 0; leg <= ORDERS; ++leg) {
+        bool crossed = false;
+        while (steps < plan_max_steps) {
+            s = next;
+            h = step_size(orbit, s);
+            next = integrator_step(orbit, s, h);
+            ++steps;
+            fate = ray_fate(orbit, next);
 #if ORDERS > 0
-        float next_side = sign(ray_height(next));
-        if (side * next_side < 0.0) find_crossing(orbit, s, next, h, end, hits);
-        side = next_side == 0.0 ? side : next_side;
+            float next_side = sign(ray_height(next));
+            crossed = side * next_side < 0.0 && leg < ORDERS;
+            side = next_side == 0.0 ? side : next_side;
 #endif
-        hits.steps = i + 1;
-        if (fate != UNRESOLVED) {
-            hits.fate = fate;
-            if (fate == ESCAPED) ray_finish(orbit, end < 1.0 ? integrator_step(orbit, s, h * end) : next, hits);
-            break;
+            if (crossed || fate != UNRESOLVED) break;
         }
-        s = next;
+        end = fate == ESCAPED ? ray_end(orbit, s, next, h) : 1.0;
+#if ORDERS > 0
+        if (crossed) find_crossing(orbit, s, next, h, end, hits);
+#endif
+        if (fate != UNRESOLVED || steps >= plan_max_steps) break;
     }
+    hits.steps = steps;
+    hits.fate = fate;
+    if (fate == ESCAPED) ray_finish(orbit, integrator_step(orbit, s, h * end), hits);
     return hits;
 }
