@@ -1,0 +1,39 @@
+"""What GL tests share: one context and one renderer in each test process."""
+
+from __future__ import annotations
+
+from typing import Iterator
+
+import moderngl
+import pytest
+
+from blackhole_gl.render.context import BACKENDS, ContextError, create_headless
+from blackhole_gl.render.frame import Renderer
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--backend", choices=("auto", *BACKENDS), default="auto", help="how GL tests draw without a display")
+    parser.addoption("--renew-goldens", action="store_true", help="write the golden pictures anew instead of comparing with them")
+
+
+@pytest.fixture(scope="session")
+def backend(request: pytest.FixtureRequest) -> str:
+    """The way to render that was asked for: ``auto``, ``egl`` or ``osmesa``."""
+    return request.config.getoption("--backend")
+
+
+@pytest.fixture(scope="session")
+def ctx(backend: str) -> moderngl.Context:
+    """A context without a window. Where none can be made the tests fail, with the line that installs what is missing: a skip would hide it."""
+    try:
+        return create_headless(backend)
+    except ContextError as error:
+        pytest.fail(str(error), pytrace=False)
+
+
+@pytest.fixture(scope="session")
+def renderer(ctx: moderngl.Context) -> Iterator[Renderer]:
+    """The one renderer whose compiled programs all tests use."""
+    made = Renderer(ctx)
+    yield made
+    made.release()
