@@ -16,6 +16,7 @@
 #include "common/hit_map_read.glsl"
 #include "common/colour.glsl"
 #include "common/disk_edge.glsl"
+#include "common/disk_matter.glsl"
 #include "common/disk_orbit.glsl"
 
 uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/disk_profile.py
@@ -24,14 +25,6 @@ out vec4 radiance;
 
 const float BRIGHTEST = 6.0e4;          // what a half float holds
 const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
-
-// What a ray meets where it crosses the disk.
-struct DiskMatter {
-    float radius;    // r_s
-    vec2 heading;    // (cos φ, sin φ)
-    vec2 footprint;  // of the pixel, in ln r and in φ
-    float density;   // 1 on a smooth disk
-};
 
 #slots disk_layer
 

@@ -7,7 +7,7 @@
 //     direction  unit vector in the world, the ray's asymptotic direction;
 //     right, up  how it changes from this pixel to the next one to the right and above: the footprint. Its solid angle
 //                |right × up| against that of the pixel is the inverse of the lens's magnification. Where the ray map is
-//                torn (shadow's edge) a footprint of 0.3 rad is given: a sky answers that with its average. Any length
+//                torn (shadow's edge) a footprint of 1 rad is given: a sky answers that with its average. Any length
 //                from 0 up may come; the answer must be finite;
 //     energy     E_observer/E_infinity of the light (blue-shift of a low observer); black bodies look T·energy hot and
 //                energy⁴ as bright;
@@ -23,7 +23,7 @@
 out vec4 radiance;
 
 const float BRIGHTEST = 6.0e4;     // what a half float holds
-const float TORN_FOOTPRINT = 0.3;  // rad
+const float TORN_FOOTPRINT = 1.0;  // rad
 
 void main() {
     Hits hits = fetch_escape(ivec2(gl_FragCoord.xy));

@@ -47,7 +47,9 @@ def band() -> np.ndarray:
     light = stars[..., None] * (cool + (warm - cool) * towards[..., None] ** 3) + bulge[..., None] * warm
     light = light * np.exp(-depth[..., None] * reddening) + haze[..., None]
     rim = np.clip((0.5 - np.abs(sin_b)) / 0.12, 0.0, 1.0)
-    return np.clip(light * (rim**2 * (3 - 2 * rim))[..., None] / 1.3, 0.0, 1.0)
+    light = light * (rim**2 * (3 - 2 * rim))[..., None]
+    # The whole colour is compressed, not each channel clipped: that would turn the core green.
+    return np.clip(1.35 * light / (1.0 + light.max(axis=-1, keepdims=True)), 0.0, 1.0)
 
 
 def main() -> None:

@@ -11,17 +11,19 @@ from ..scene import Scene
 from .programs import Programs, draw
 from .shading import bind_samplers
 
-MOST_LEVELS = 7
+MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
 
 
 def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
-    """Sizes of the bloom levels of a picture of `size`: halves, rounded up, until a side would get shorter than 2."""
-    for _ in range(MOST_LEVELS):
-        size = ((size[0] + 1) // 2, (size[1] + 1) // 2)
-        yield size
+    """Sizes of the bloom levels of a picture of `size`: a quarter, then halves, rounded up, until a side is 2 or less."""
+    size = -(-size[0] // 4), -(-size[1] // 4)
+    yield size
+    for _ in range(MOST_LEVELS - 1):
         if min(size) <= 2:
             return
+        size = -(-size[0] // 2), -(-size[1] // 2)
+        yield size
 
 
 class PostPass:
@@ -59,16 +61,16 @@ class PostPass:
 
     def _bloom(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture) -> moderngl.Texture:
         self._make_levels(radiance.size)
-        source, threshold = radiance, scene.post.bloom_threshold
+        source, threshold, centre = radiance, scene.post.bloom_threshold, 0.0
         triangle = self._programs.get("post/bloom_down.frag", scene, ray_plan)
         for level in self._down:
             bind_samplers(triangle.program, {"source": source})
-            _set(triangle, source_texel=_texel(source.size), target_texel=_texel(level.size), threshold=threshold)
+            _set(triangle, source_texel=_texel(source.size), target_texel=_texel(level.size), threshold=threshold, centre_weight=centre)
             level.use()
             draw(triangle)
-            source, threshold = level.color_attachments[0], 0.0
+            source, threshold, centre = level.color_attachments[0], 0.0, 4.0
         triangle = self._programs.get("post/bloom_up.frag", scene, ray_plan)
-        share = scene.post.bloom_spread / (0.6 + scene.post.bloom_spread)
+        share = scene.post.bloom_spread / (0.4 + scene.post.bloom_spread)
         for own, level in zip(reversed(self._down[:-1]), self._up):
             bind_samplers(triangle.program, {"wider": source, "level": own.color_attachments[0]})
             _set(triangle, wider_texel=_texel(source.size), target_texel=_texel(level.size), spread=share)

@@ -26,6 +26,7 @@ class ShadePass:
         self._ctx, self._programs = ctx, programs
         self._tables = {"blackbody_table": _blackbody_table(ctx), "galaxy_band": _galaxy_band(ctx)}
         self._profile_key: tuple | None = None
+        self._depth: moderngl.Texture | None = None
         self._classes: moderngl.Framebuffer | None = None
         self._classes_key: tuple | None = None
         self._frame: moderngl.Framebuffer | None = None
@@ -77,7 +78,8 @@ class ShadePass:
             return
         if self._classes is None or self._classes.size != size:
             self._release_classes()
-            self._classes = self._ctx.framebuffer([], self._ctx.depth_texture(size))
+            self._depth = self._ctx.depth_texture(size)
+            self._classes = self._ctx.framebuffer([], self._depth)
         triangle = self._prepared("shade_classes.frag", scene, ray_plan, hit_map)
         self._classes.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
@@ -92,15 +94,13 @@ class ShadePass:
         if self._frame is None or self._frame.color_attachments[0] is not picture:
             if self._frame is not None:
                 self._frame.release()
-            self._frame = self._ctx.framebuffer([picture], self._classes.depth_attachment)
+            self._frame = self._ctx.framebuffer([picture], self._depth)
 
     def _release_classes(self) -> None:
-        for framebuffer in (self._frame, self._classes):
-            if framebuffer is not None:
-                framebuffer.release()
-        if self._classes is not None:
-            self._classes.depth_attachment.release()
-        self._frame, self._classes, self._classes_key = None, None, None
+        for item in (self._frame, self._classes, self._depth):
+            if item is not None:
+                item.release()
+        self._frame, self._classes, self._depth, self._classes_key = None, None, None, None
 
     def _update_profile(self, scene: Scene) -> None:
         inner, outer = plan.effective_disk_radii(scene)

@@ -8,20 +8,20 @@ struct Crossing {
     float cover;  // 0…1: how much of the pixel lies between the disk's edges; 0 without a crossing
 };
 
-// Where a neighbour has no such crossing, the other direction's change stands in, or a small one: never a torn one.
+// A neighbour without such a crossing means that the rays part here (near the critical curve): a wide change stands in.
 // Takes differences between pixels, so all pixels must run it: keep it outside every branch.
 Crossing crossing_of(vec2 point) {
     float present = point == vec2(0.0) ? 0.0 : 1.0;
-    bool whole_right = dFdx(present) == 0.0, whole_up = dFdy(present) == 0.0;
-    vec2 right = dFdx(point), up = dFdy(point), spare = 0.02 * point;
-    Crossing crossing = Crossing(point, right, up, 0.0);
-    crossing.right = whole_right ? right : (whole_up ? up : spare);
-    crossing.up = whole_up ? up : (whole_right ? right : spare);
+    Crossing crossing = Crossing(point, dFdx(point), dFdy(point), 0.0);
+    if (dFdx(present) != 0.0) crossing.right = point;
+    if (dFdy(present) != 0.0) crossing.up = point;
 
+    // The pixel's footprint is a stretch of radii about r; its share inside the disk is what is covered. So a ring thinner
+    // than a pixel is as bright as it is thin.
     float r = max(length(point), 1e-6);
     vec2 radial = vec2(dot(crossing.right, point), dot(crossing.up, point)) / r;
-    // Never wider than a part of the disk: a footprint that holds all of it must still tell inside from outside.
-    float width = clamp(length(radial), 1e-5 * r, 0.25 * (disk_r_out - disk_r_in) + 1e-5 * r);
-    crossing.cover = present * clamp((r - disk_r_in) / width + 0.5, 0.0, 1.0) * clamp((disk_r_out - r) / width + 0.5, 0.0, 1.0);
+    float half_width = 0.5 * max(length(radial), 1e-5 * r);
+    float inside = min(disk_r_out, r + half_width) - max(disk_r_in, r - half_width);
+    crossing.cover = present * clamp(inside / (2.0 * half_width), 0.0, 1.0);
     return crossing;
 }

@@ -16,7 +16,7 @@ range = [0.0, 6.0]
 help = "Strength of each octave; 0 leaves the smooth disk."
 
 [parameters.stretch]
-default = 5.0
+default = 9.0
 range = [1.0, 30.0]
 help = "How much longer than wide the eddies are along the flow before it shears them."
 

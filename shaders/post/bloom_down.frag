@@ -1,12 +1,15 @@
 #version 330 core
-// One step down the bloom chain: half the size, five taps ("dual filter", M. Bjørge, SIGGRAPH 2015: centre weight 4, four
-// diagonals weight 1, half a pixel of the target away). Weights sum to 1, so the mean light is kept. The first step also
-// takes the threshold off.
+// One step down the bloom chain. Four taps, each the mean of four pixels, and a centre ("dual filter", M. Bjørge, SIGGRAPH
+// 2015); weights sum to 1, so the mean light is kept.
+//   first step: to a quarter, no centre: the taps make the plain mean of 4 × 4 pixels, so that a star gives the same glow
+//               wherever it falls between the pixels. It also takes the threshold off.
+//   others:     to a half, centre weight 4.
 
 uniform sampler2D source;
-uniform vec2 source_texel;   // 1 / size of the source
-uniform vec2 target_texel;   // 1 / size of the target
-uniform float threshold;     // radiance below which nothing glows; 0 in all steps but the first
+uniform vec2 source_texel;    // 1 / size of the source
+uniform vec2 target_texel;    // 1 / size of the target
+uniform float centre_weight;
+uniform float threshold;      // radiance below which nothing glows; 0 in all steps but the first
 
 out vec4 colour;
 
@@ -17,9 +20,9 @@ vec3 tap(vec2 place) {
 void main() {
     vec2 place = gl_FragCoord.xy * target_texel;
     vec2 d = source_texel;
-    vec3 sum = 4.0 * tap(place)
+    vec3 sum = centre_weight * tap(place)
              + tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y));
-    vec3 mean = sum * 0.125;
+    vec3 mean = sum / (centre_weight + 4.0);
     // Soft knee: nothing is kept below threshold/2, L − threshold above 3/2 of it, a parabola joins the two.
     float brightest = max(mean.r, max(mean.g, mean.b));
     float knee = 0.5 * threshold;

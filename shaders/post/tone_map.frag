@@ -24,16 +24,16 @@ vec3 tone_curve(vec3 light) {
     return light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14);
 }
 #elif POST_TONE_MAP_AGX
-// In the manner of T. Sobotka's AgX: colours are drawn towards grey, a sigmoid acts on stops −10…+6.5 about middle grey 0.18,
-// and most of the saturation is given back. The sigmoid x^a/(x^a + b(1−x)^a)-like curve is our own fit to its published shape:
-// middle grey goes to itself, slope 2.4 in stops-normalised units, toe and shoulder reach 0 and 1.
+// In the manner of T. Sobotka's AgX: colours are drawn towards grey, a sigmoid acts on stops, −10…+6.5 about middle grey 0.18,
+// and most of the saturation is given back. The curve x^p/(x^p + b(1−x)^p) is our own: b keeps middle grey where it is, p gives
+// it the slope of 2.4 that AgX has there.
 vec3 tone_curve(vec3 light) {
     const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);
     vec3 drawn = mix(light, vec3(dot(light, vec3(1.0 / 3.0))), 0.16);
     vec3 x = clamp((log2(max(drawn, 1e-8) / 0.18) + 10.0) / 16.5, 0.0, 1.0);
-    const float POWER = 2.6;
+    const float POWER = 2.3;
     vec3 rise = pow(x, vec3(POWER)), rest = pow(1.0 - x, vec3(POWER));
-    vec3 encoded = rise / (rise + 1.06 * rest); // 10/16.5 of the way → 0.46, the sRGB code of 0.18
+    vec3 encoded = rise / (rise + 3.145 * rest);
     vec3 shown = pow(encoded, vec3(2.2));
     return max(mix(vec3(dot(shown, WEIGHTS)), shown, 1.12), 0.0);
 }

@@ -161,8 +161,11 @@ vec3 galaxy_radiance(SkySpot spot) {
     float height = dot(spot.centre, GALAXY_POLE);
     float longitude = atan(dot(spot.centre, cross(GALAXY_POLE, GALAXY_CENTRE)), dot(spot.centre, GALAXY_CENTRE));
     float level = log2(max(spot.reach / GALAXY_TEXEL, 1.0));
-    vec3 root = textureLod(galaxy_band, vec2(longitude / 6.2831853 + 0.5, height + 0.5), level).rgb;
-    return root * root;
+    // A very wide footprint holds the sky beside the band too, which is as large as the band's map and dark.
+    float whole_sky = smoothstep(0.1, 0.6, spot.reach);
+    vec2 place = vec2(longitude / 6.2831853 + 0.5, 0.5 + height * (1.0 - whole_sky));
+    vec3 root = textureLod(galaxy_band, place, level).rgb;
+    return root * root * (1.0 - 0.5 * whole_sky);
 }
 
 vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
