@@ -47,8 +47,7 @@ def horizon_radius(spin: ArrayLike) -> Array:
 
 def inner_horizon_radius(spin: ArrayLike) -> Array:
     """Inner horizon r_- in r_s, as a^2/r_+ so that small spins keep their digits."""
-    a = np.asarray(spin, dtype=np.float64)
-    return 0.25 * a * a / horizon_radius(a)
+    return 0.25 * np.square(spin) / horizon_radius(spin)
 
 
 def ergosphere_radius(spin: ArrayLike, theta: ArrayLike) -> Array:
@@ -211,8 +210,7 @@ def critical_curve(spin: float, theta: float, samples: int = 512) -> tuple[Array
     cosine, sine = np.cos(theta), np.sin(theta)
     turn = 2.0 * np.pi * np.arange(samples) / samples
     if spin == 0.0 or abs(sine) < 1e-9:
-        s = _axis_orbit(spin)
-        lam, eta = spherical_photon_orbit(s, spin)
+        lam, eta = spherical_photon_orbit(_axis_orbit(spin), spin)
         radius = np.sqrt(eta + lam * lam + (spin * cosine) ** 2)
         return radius * np.sin(turn), radius * np.cos(turn)
     low, high = _visible_orbits(spin, theta)
@@ -231,17 +229,14 @@ def _axis_orbit(spin: float) -> float:
     """s of the orbit with lambda = 0, which passes over the poles; 0 by convention at a* = 0 (lambda is then free)."""
     if spin == 0.0:
         return 0.0
-    a2 = spin * spin
-    y = _barrier_offset(np.float64(a2), np.float64(0.0))
-    return float((y - 2.0) / spin)
+    return float((_barrier_offset(np.float64(spin * spin), np.float64(0.0)) - 2.0) / spin)
 
 
 def _visible_orbits(spin: float, theta: float) -> tuple[float, float]:
     """Range of s of the spherical orbits that reach polar angle theta: roots of beta^2 to either side of lambda = 0."""
     cosine, sine = np.cos(theta), np.sin(theta)
-    a = abs(spin)
     middle = _axis_orbit(spin)
-    ends = [float(_photon_orbit_offset(np.float64(x))) / spin for x in (a, -a)]
+    ends = [float(_photon_orbit_offset(np.float64(x))) / spin for x in (spin, -spin)]
     limits = []
     for end in sorted(ends):
         inside, outside = middle, end

@@ -38,6 +38,9 @@ class System(Protocol):
     def longest_step(self, state: Array) -> Array:
         """Upper limit of the step, (...,): short enough that no event can hide inside one step."""
 
+    def rechart(self, before: Array, after: Array) -> Array:
+        """`after`, or the same rays in coordinates that suit them better; applied between steps."""
+
 
 def extrapolated_step(rhs: Callable[[Array], Array], state: Array, step: Array) -> tuple[Array, Array]:
     """One step of every ray: (new state, error estimate), both (rows, N), for `state` (rows, N) and `step` (N,)."""
@@ -97,8 +100,9 @@ def march(system: System, state: Array, first_step: Array, monitor: Callable[[Ar
         moved = active[good]
         if not moved.size:
             continue
-        state[:, moved] = after[:, good]
-        done = monitor(moved, before[:, good], after[:, good], size[good])
+        start, end = before[:, good], after[:, good]
+        state[:, moved] = system.rechart(start, end)
+        done = monitor(moved, start, end, size[good])
         keep = np.ones(active.size, dtype=bool)
         keep[good] = ~done
         active = active[keep]

@@ -5,7 +5,9 @@ With ingoing coordinates the inverse metric is flat space minus f l l, so that
     H = 1/2 (-E^2 + |p|^2 - f kappa^2) = 0,   kappa = E + l.p
     f = 2 r^3/(r^4 + a^2 z^2),   l = ((r x + a y)/(r^2+a^2), (r y - a x)/(r^2+a^2), z/r)
 
-(Kerr & Schild 1965). They are regular on the axis, in the equatorial plane and on the future horizon.
+(Kerr & Schild 1965). They are regular on the axis, in the equatorial plane and on the future horizon. Near the horizon they
+serve inward light only: outward light has |p| ~ 1/Delta there and loses its digits. A ray therefore carries the sign of its
+chart, +1 ingoing, -1 outgoing (its time reversal: p -> -p, a -> -a, parameter reversed), and changes over where it turns.
 
 A ray traced backwards is a photon of the time-reversed space-time, which is Kerr with -a: the photon starts along the
 look direction n and falls through the future horizon when the picture shows the hole. Its L_z is minus the physical one.
@@ -29,7 +31,7 @@ from .observers import Momenta, Place
 Array = np.ndarray
 
 # Rows of the state.
-N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY = range(9)
+N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY, CHART = range(10)
 
 
 class KerrSystem:
@@ -40,8 +42,9 @@ class KerrSystem:
         self.r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
 
     def rhs(self, state: Array) -> Array:
-        a = self.spin
-        nx, ny, s, w, lx, ly, lz, pn, energy = state
+        nx, ny, s, w, lx, ly, lz, pn, energy, chart = state
+        a = chart * self.spin
+        lx, ly, lz, pn = chart * lx, chart * ly, chart * lz, chart * pn
         ah = a * w
         a2, s2 = ah * ah, s * s
         root = np.sqrt((1.0 - a2) ** 2 + 4.0 * a2 * s2)
@@ -62,7 +65,7 @@ class KerrSystem:
         c_twist, c_axis = fk * c * ah, fk * c * a2 * sr
         nx_dot = lnx - c_twist * ny + c_axis * s * nx
         ny_dot = lny + c_twist * nx + c_axis * s * ny
-        nz_dot = lnz - c_axis * (1.0 - s2)
+        nz_dot = lnz - c_axis * (nx * nx + ny * ny)  # not 1 - s2: errors of |n| = 1 would grow
         w_dot = w * fk * c * (rho + a2 * s * sr) - pn
 
         # L' = q z cross n + fk c ah (z cross L) - fk c a ah sr (z cross p)
@@ -84,7 +87,42 @@ class KerrSystem:
         pn_dot = (w * (lnx * nx_dot + lny * ny_dot + lnz * nz_dot)
                   - 0.5 * kappa * kappa * (big_f + ah * f_a) - w * fk * a * lp_a)
         zero = np.zeros_like(w)
-        return np.stack([nx_dot, ny_dot, nz_dot, w_dot, lx_dot, ly_dot, zero, pn_dot, zero])
+        return np.stack([chart * nx_dot, chart * ny_dot, chart * nz_dot, chart * w_dot, lx_dot, ly_dot, zero, pn_dot, zero, zero])
+
+    def rechart(self, before: Array, after: Array) -> Array:
+        """`after` with the rays that turned round in their last step, from `before`, moved to the chart that suits their way."""
+        with np.errstate(all="ignore"):  # r is infinite where a ray from infinity starts, and meaningless beyond w = 0
+            turned = (self.radius(after) - self.radius(before)) * after[CHART] > 0.0
+        turned &= (after[W] > 0.0) & ~self.captured(after)
+        if not turned.any():
+            return after
+        result = after.copy()
+        result[:, turned] = self._other_chart(after[:, turned])
+        return result
+
+    def _other_chart(self, state: Array) -> Array:
+        """The same rays in the other chart.
+
+        It has x turned about z by zeta(r) = 2 lag - 2 atan2(a, r), and T shifted by -+ the integral of 4r/Delta, so that p changes
+        by the same turn and by grad r (zeta' L_z + 4 r E/Delta).
+        """
+        chart, w, l_z = state[CHART], state[W], state[L_Z]
+        a, r = chart * self.spin, self.radius(state)
+        delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
+        kick = (4.0 * chart * r * state[ENERGY] - 2.0 * a * l_z) / delta + 2.0 * a * l_z / (r * r + a * a)
+        z = state[N_Z] / w
+        inv_d = 1.0 / (r**4 + (a * z) ** 2)
+        result = state.copy()
+        result[P_N] -= kick * r * inv_d * (r * r / w + a * a * z * state[N_Z])
+        tilt = kick * a * a * r * z * inv_d / w
+        result[L_X] -= tilt * state[N_Y]
+        result[L_Y] += tilt * state[N_X]
+        zeta = 2.0 * chart * self.azimuth_lag(r) - 2.0 * np.arctan2(a, r)
+        c, s = np.cos(zeta), np.sin(zeta)
+        for x, y in ((N_X, N_Y), (L_X, L_Y)):
+            result[x], result[y] = c * result[x] - s * result[y], s * result[x] + c * result[y]
+        result[CHART] = -chart
+        return result
 
     def scale(self, state: Array) -> Array:
         size = np.ones_like(state)
@@ -100,7 +138,7 @@ class KerrSystem:
 
     def captured(self, state: Array) -> Array:
         """Mask (N,): behind the future horizon, whence nothing comes back."""
-        return state[W] * self.r_plus > self._rho(state)
+        return (state[W] * self.r_plus > self._rho(state)) & (state[CHART] > 0.0)
 
     def radius(self, state: Array) -> Array:
         """Boyer-Lindquist r in M, (N,)."""
@@ -109,7 +147,8 @@ class KerrSystem:
     def azimuth(self, state: Array) -> Array:
         """Boyer-Lindquist phi, (N,): Kerr-Schild's less the twist of its coordinates, in closed form."""
         r = self.radius(state)
-        return np.arctan2(state[N_Y], state[N_X]) - np.arctan2(self.spin, r) + self.azimuth_lag(r)
+        chart = state[CHART]
+        return np.arctan2(state[N_Y], state[N_X]) + chart * (self.azimuth_lag(r) - np.arctan2(self.spin, r))
 
     def azimuth_lag(self, r: Array | float) -> Array | float:
         """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays."""
@@ -122,45 +161,45 @@ class KerrSystem:
         return n / np.linalg.norm(n, axis=1, keepdims=True)
 
     def start(self, place: Place, momenta: Momenta) -> Array:
-        """State (9, N) of photons at a finite place."""
-        a, r, cos, sin = self.spin, place.r, place.cos_theta, place.sin_theta
-        sigma = r * r + (a * cos) ** 2
+        """State (10, N) of photons at a finite place."""
+        r, cos, sin = place.r, place.cos_theta, place.sin_theta
+        chart = np.where(momenta.radial > 0.0, -1.0, 1.0)
+        a = chart * self.spin
+        sigma = r * r + (self.spin * cos) ** 2
         delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
         root = np.abs(momenta.radial) * math.sqrt(sigma * delta)
-        # p_r of the ingoing coordinates = (P +- root)/Delta - E; the difference is formed as K/(P + root).
-        p_r = np.where(momenta.radial > 0.0, (momenta.carter_p + root) / delta,
-                       momenta.carter_k / (momenta.carter_p + root)) - momenta.energy
+        # p_r of the chart, -+(P - root)/Delta +- E, with the difference formed as K/(P + root).
+        p_r = chart * (momenta.carter_k / (momenta.carter_p + root) - momenta.energy)
         p_theta = momenta.p_theta - a * momenta.l_over_sin * cos / r
         along_u = (r / sigma) * (r * sin * p_r + cos * p_theta)
         along_z = (cos * (r * r + a * a) * p_r - r * sin * p_theta) / sigma
         along_e = (momenta.l_over_sin + a * along_u) / r
 
-        lag = self.azimuth_lag(r)
-        cp = place.cos_phi * math.cos(lag) + place.sin_phi * math.sin(lag)
-        sp = place.sin_phi * math.cos(lag) - place.cos_phi * math.sin(lag)
-        u, e, z = np.array([cp, sp, 0.0]), np.array([-sp, cp, 0.0]), np.array([0.0, 0.0, 1.0])
-        x = sin * (r * u + a * e) + r * cos * z
-        p = np.outer(u, along_u) + np.outer(e, along_e) + np.outer(z, along_z)
-        return self._state(x / np.linalg.norm(x), 1.0 / float(np.linalg.norm(x)), np.cross(x, p.T).T,
-                           sin * momenta.l_over_sin, p, momenta.energy)
+        lag = chart * self.azimuth_lag(r)
+        c, s = np.cos(lag), np.sin(lag)
+        cp, sp = place.cos_phi * c + place.sin_phi * s, place.sin_phi * c - place.cos_phi * s
+        x = np.stack([sin * (r * cp - a * sp), sin * (r * sp + a * cp), np.full_like(a, r * cos)])
+        p = np.stack([along_u * cp - along_e * sp, along_u * sp + along_e * cp, along_z])
+        distance = math.sqrt(r * r + (self.spin * sin) ** 2)
+        momentum = np.cross(x.T, p.T).T
+        momentum[2] = sin * momenta.l_over_sin
+        return self._state(x / distance, 1.0 / distance, momentum, p, momenta.energy, chart)
 
     def start_at_infinity(self, place: Place, screen: Array) -> Array:
-        """State (9, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
+        """State (10, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
         e_r, e_theta, e_phi = place.frame()
         alpha, beta = screen.T
         momentum = -np.outer(e_theta, alpha) - np.outer(e_phi, beta)
-        p = -np.repeat(e_r[:, None], len(screen), axis=1)
-        return self._state(e_r, 0.0, momentum, alpha * place.sin_theta, p, np.ones(len(screen)))
+        momentum[2] = alpha * place.sin_theta
+        n, one = np.repeat(e_r[:, None], len(screen), axis=1), np.ones(len(screen))
+        return self._state(n, 0.0, momentum, -n, one, one)
 
     @staticmethod
-    def _state(n: Array, w: float, momentum: Array, l_z: Array, p: Array, energy: Array) -> Array:
-        state = np.empty((9, energy.size))
-        state[N_X:W] = n[:, None]
-        state[W] = w
-        state[L_X:L_Z] = momentum[:2]
-        state[L_Z] = l_z
-        state[P_N] = n @ p
-        state[ENERGY] = energy
+    def _state(n: Array, w: float, momentum: Array, p: Array, energy: Array, chart: Array) -> Array:
+        state = np.empty((10, energy.size))
+        state[N_X:W], state[W], state[L_X:P_N] = n, w, momentum
+        state[P_N] = np.einsum("ij,ij->j", n, p)
+        state[ENERGY], state[CHART] = energy, chart
         return state
 
     @staticmethod

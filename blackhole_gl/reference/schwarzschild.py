@@ -60,6 +60,9 @@ class SchwarzschildSystem:
     def longest_step(self, state: Array) -> Array:
         return 2.0 / (state[H] + 1e-3)
 
+    def rechart(self, before: Array, after: Array) -> Array:
+        return after
+
     def captured(self, state: Array) -> Array:
         return state[W] * self.horizon_size > 1.0
 

@@ -17,6 +17,7 @@ from .schwarzschild import N_Z, W, SchwarzschildSystem
 MODELS = ("flat", "schwarzschild", "kerr_like", "kerr")
 INNERMOST_CROSSING = 1.02  # in units of the horizon: below, a crossing is left empty
 _MAX_STEPS = 1000
+_FINEST_TOLERANCE = 1e-13
 _BATCH = 512  # rays per batch: the working set of a step stays in the cache
 
 Array = np.ndarray
@@ -38,12 +39,13 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     gravity_strength G of schwarzschild and kerr_like; horizon_size: their capture radius in r_s
     drag             k of kerr_like
     orders           number of plane crossings kept; orbit: "prograde" or "retrograde" emitters
-    tolerance        error allowed per step of the integrator
+    tolerance        error allowed per step of the integrator; below 1e-13 rounding leaves nothing to gain
 
     Raises ValueError for an unknown model, a camera below the horizon, or rays that do not fit the distance.
     """
     if model not in MODELS:
         raise ValueError(f"unknown ray model {model!r}: one of {', '.join(MODELS)}")
+    tolerance = max(tolerance, _FINEST_TOLERANCE)
     at_infinity = math.isinf(distance)
     if (screen is None) == (directions is None) or (screen is None) == at_infinity:
         raise ValueError("rays are given by `screen` when distance is inf, and by `directions` otherwise")
