@@ -12,6 +12,16 @@
 //     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
+// and, for those integrators and step controls that ask for them,
+//     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
+//     float state_difference(Orbit, State a, State b)   about the angle in radians by which two ends of one step differ
+//     float ray_plain_step(Orbit, State), ray_longest_step(Orbit, State)   the step before any control; the longest in which nothing is missed
+//     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
+// RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
+//
+// A step control gives step_size(Orbit, State), or with STEP_ADAPTS
+//     State adapted_step(Orbit, State s, inout float trial, out float h)   one step of length h ≤ trial; rejected: s itself, with h = 0
+// An integrator gives integrator_step(Orbit, State, float h), one with an error estimate also integrator_pair and INTEGRATOR_ERROR_POWER.
 
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
 // so that the crossing is as accurate as the march and not as the polynomial.
@@ -38,15 +48,25 @@ Hits trace_ray(RayStart start) {
     float end = 1.0;
     int fate = UNRESOLVED;
     int steps = 0;
+#ifdef STEP_ADAPTS
+    float trial = ray_plain_step(orbit, s);
+#endif
 #if ORDERS > 0
     float side = sign(ray_height(s));  // 0: the camera's own place in the plane does not count
 #endif
     for (int leg = 0; leg <= ORDERS; ++leg) {
         bool crossed = false;
         while (steps < plan_max_steps) {
+#ifdef RAY_RECHARTS
+            next = ray_recharted(s, next);
+#endif
             s = next;
+#ifdef STEP_ADAPTS
+            next = adapted_step(orbit, s, trial, h);
+#else
             h = step_size(orbit, s);
             next = integrator_step(orbit, s, h);
+#endif
             ++steps;
             fate = ray_fate(orbit, next);
 #if ORDERS > 0
