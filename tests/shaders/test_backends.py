@@ -1,0 +1,94 @@
+"""Both ways to draw without a display, each in a process of its own, and whether they agree."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from blackhole_gl.render import context
+
+TRACE = """
+import sys
+import numpy as np
+from blackhole_gl import presets
+from blackhole_gl.render.context import create_headless, describe
+from blackhole_gl.render.frame import Renderer
+
+ctx = create_headless()
+renderer = Renderer(ctx)
+renderer.render(presets.load(["kerr"]), 3.5, (64, 36))
+hits = renderer.hits()
+np.savez(sys.argv[1], fate=hits.fate, direction=hits.direction, crossing=hits.crossing, picture=renderer.read_rgb8())
+print(describe(ctx))
+"""
+
+
+def run(code: str, backend: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    environment[context.ENVIRONMENT] = backend
+    return subprocess.run([sys.executable, "-c", code, *map(str, arguments)], env=environment, capture_output=True, text=True, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def frames(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, np.ndarray]]:
+    """What each backend found, by its name."""
+    found = {}
+    for backend in context.BACKENDS:
+        path = tmp_path_factory.mktemp("backends") / f"{backend}.npz"
+        done = run(TRACE, backend, path)
+        assert done.returncode == 0, f"{backend}: {done.stderr}"
+        assert "OpenGL" in done.stdout
+        with np.load(path) as stored:
+            found[backend] = dict(stored)
+    return found
+
+
+@pytest.mark.osmesa
+def test_both_backends_find_the_same_hits(frames: dict[str, dict[str, np.ndarray]]) -> None:
+    """The same shaders on two drivers: rounding may differ, and rays near the critical curve magnify it."""
+    egl, osmesa = frames["egl"], frames["osmesa"]
+    assert np.mean(egl["fate"] != osmesa["fate"]) < 2e-3
+    same = egl["fate"] == osmesa["fate"]
+    apart = np.linalg.norm(egl["direction"] - osmesa["direction"], axis=-1)[same]
+    assert np.quantile(apart, 0.98) < 1e-5
+    difference = np.abs(egl["picture"].astype(int) - osmesa["picture"].astype(int))
+    assert np.mean(difference) < 1.0 and np.mean(difference > 8) < 0.01
+
+
+def test_egl_draws(frames_of_egl: dict[str, np.ndarray]) -> None:
+    assert frames_of_egl["picture"].shape == (36, 64, 3)
+    assert np.all(frames_of_egl["fate"] > 0)
+
+
+@pytest.fixture(scope="module")
+def frames_of_egl(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
+    path = tmp_path_factory.mktemp("egl") / "egl.npz"
+    done = run(TRACE, "egl", path)
+    assert done.returncode == 0, done.stderr
+    with np.load(path) as stored:
+        return dict(stored)
+
+
+def test_an_unknown_backend_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ValueError, match="backend: got 'metal'; allowed is one of auto, egl, osmesa"):
+        context.create_headless("metal")
+    monkeypatch.setenv(context.ENVIRONMENT, "metal")
+    with pytest.raises(ValueError, match="'metal'"):
+        context.create_headless()
+
+
+def test_without_any_library_the_error_has_the_line_that_installs_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing():
+        raise RuntimeError("libEGL.so.1 not found")
+
+    monkeypatch.setattr(context, "_MAKERS", {name: missing for name in context.BACKENDS})
+    monkeypatch.delenv(context.ENVIRONMENT, raising=False)
+    with pytest.raises(context.ContextError) as caught:
+        context.create_headless("auto")
+    assert "libEGL.so.1 not found" in str(caught.value)
+    assert context.INSTALL_LINE in str(caught.value) and context.OSMESA_LINE in str(caught.value)

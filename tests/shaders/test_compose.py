@@ -1,0 +1,128 @@
+"""Shader files through the real driver: where a mistake is reported, and what stays on the screen meanwhile."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import moderngl
+import numpy as np
+import pytest
+
+from blackhole_gl import catalogue, plan, presets
+from blackhole_gl.glsl.compose import ShaderError
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.hit_map import HitMap
+from blackhole_gl.render.programs import Programs
+from blackhole_gl.resources import shaders_dir
+from blackhole_gl.scene import Scene, fields
+
+SCENE = presets.load(["kerr"])
+PLAN = plan.plan(SCENE)
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    """A copy of the shaders that a test may spoil."""
+    return Path(shutil.copytree(shaders_dir(), tmp_path / "shaders"))
+
+
+def edit(path: Path, old: str, new: str) -> int:
+    """Replaces `old`, which occurs, by `new`; returns its line. The file's time moves on whatever the clock's grain."""
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    later = path.stat().st_mtime_ns + 10**9
+    os.utime(path, ns=(later, later))
+    return text[: text.index(old)].count("\n") + 1
+
+
+def test_a_mistake_names_the_authors_file_and_line(ctx: moderngl.Context, copy: Path) -> None:
+    line = edit(copy / "ray_models" / "kerr.glsl", "float a = hole_spin;", "float a = hole_spinn;")
+    with pytest.raises(ShaderError, match="hole_spinn") as caught:
+        Programs(ctx, copy).get("trace.frag", SCENE, PLAN)
+    assert (caught.value.file, caught.value.line) == ("ray_models/kerr.glsl", line)
+
+
+def test_a_mistake_after_switches_and_blocks_keeps_its_line(ctx: moderngl.Context, copy: Path) -> None:
+    line = edit(copy / "trace.frag", "store_hits(", "store_hit(")
+    with pytest.raises(ShaderError) as caught:
+        Programs(ctx, copy).get("trace.frag", SCENE, PLAN)
+    assert (caught.value.file, caught.value.line) == ("trace.frag", line)
+
+
+def test_reload_takes_up_a_change_and_survives_a_mistake(ctx: moderngl.Context, copy: Path) -> None:
+    programs = Programs(ctx, copy)
+    good = programs.get("trace.frag", SCENE, PLAN)
+    assert programs.reload() == [] and programs.get("trace.frag", SCENE, PLAN) is good
+
+    path = copy / "ray_models" / "kerr.glsl"
+    line = edit(path, "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return ESCAPE;")
+    (error,) = programs.reload()
+    assert (error.file, error.line) == ("ray_models/kerr.glsl", line) and "ESCAPE" in error.message
+    assert programs.get("trace.frag", SCENE, PLAN) is good, "the last good program goes on"
+    assert [str(e) for e in programs.reload()] == [str(error)], "the mistake stands until it is mended"
+
+    edit(path, "return ESCAPE;", "return CAPTURED;")
+    assert programs.reload() == []
+    changed = programs.get("trace.frag", SCENE, PLAN)
+    assert changed is not good
+
+
+def test_a_missing_include_is_reported_where_it_is_asked_for(ctx: moderngl.Context, copy: Path) -> None:
+    programs = Programs(ctx, copy)
+    programs.get("trace.frag", SCENE, PLAN)
+    line = edit(copy / "trace.frag", '#include "common/hits.glsl"', '#include "common/hit.glsl"')
+    (error,) = programs.reload()
+    assert (error.file, error.line) == ("trace.frag", line)
+
+
+def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Context, copy: Path) -> None:
+    renderer = Renderer(ctx)
+    renderer.programs = Programs(ctx, copy)
+    renderer.hit_map = HitMap(ctx, renderer.programs)
+    renderer.render(SCENE, 0.0, (16, 9))
+    assert np.any(renderer.hits().fate == 1)
+    edit(copy / "ray_models" / "kerr.glsl", "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return CAPTURED;")
+    assert renderer.programs.reload() == []
+    assert renderer.render(SCENE, 0.0, (16, 9)).traced
+    assert np.all(renderer.hits().fate == 2)
+    renderer.release()
+
+
+def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    renderer.render(SCENE, 0.0, (16, 9))
+    compiled = []
+    monkeypatch.setattr(renderer.programs, "_compose", lambda *recipe: compiled.append(recipe))
+    numbers = {key: item.low for key, item in fields().items() if item.kind in ("float", "int") and key not in ("rays.orders", "camera.distance")}
+    for key, value in numbers.items():
+        renderer.render(SCENE.with_values({key: value}), 0.0, (16, 9))
+    assert compiled == []
+
+
+@pytest.mark.parametrize("model", catalogue.keys("ray_model"))
+def test_every_combination_that_fits_compiles_and_gives_every_ray_a_fate(renderer: Renderer, model: str) -> None:
+    """The matrix of ray models, integrators and step controls, through one small frame each."""
+    marched = catalogue.plug_ins("ray_model")[model].traits["kind"] == "differential"
+    for integrator in catalogue.keys("integrator") if marched else ("rk4",):
+        for control in catalogue.keys("step_control") if marched else ("radius",):
+            if catalogue.reasons_against(model, integrator, control):
+                continue
+            changes = {"rays.model": model, "rays.integrator": integrator, "rays.step_control": control, "rays.max_steps": 4000, "camera.fov_deg": 15.0}
+            renderer.render(SCENE.with_values(changes), 0.0, (24, 14))
+            hits = renderer.hits()
+            assert np.count_nonzero(hits.fate == 0) == 0, (integrator, control)
+            assert np.all(np.isfinite(hits.direction)) and np.any(hits.fate == 1) and np.any(hits.fate == 2), (integrator, control)
+
+
+@pytest.mark.parametrize("key", [key for key, item in fields().items() if item.kind in ("switch", "choice")])
+def test_every_option_draws(renderer: Renderer, key: str) -> None:
+    item = fields()[key]
+    for value in (False, True) if item.kind == "switch" else item.options:
+        try:
+            renderer.render(Scene().with_values({key: value}), 1.0, (16, 9))
+        except ValueError as error:  # a refusal is a sentence that names the key
+            assert key.split(".")[0] in str(error)
+            continue
+        assert np.all(np.isfinite(renderer.radiance())), value

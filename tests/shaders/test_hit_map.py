@@ -1,0 +1,103 @@
+"""When rays are traced anew and when the kept hit map serves; and that the same asked twice is the same seen twice."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl import presets
+from blackhole_gl.render.frame import Renderer
+
+SIZE = (64, 36)
+SHADING_ONLY = {
+    "disk.temperature_k": 9000.0,
+    "disk.outer_radius": 7.0,
+    "disk.temperature_law": "tapered",
+    "disk.beaming": False,
+    "disk.noise_speed": 0.1,
+    "disk.turbulence.contrast": 1.0,
+    "disk.point_field": True,
+    "sky.brightness": 0.5,
+    "sky.enabled": False,
+    "post.exposure": 1.0,
+    "post.bloom": False,
+    "post.tone_map": "agx",
+    "playback.rate": 1.0,
+}
+TRACED_ANEW = {
+    "hole.spin": 0.5,
+    "camera.distance": 21.0,
+    "camera.inclination_deg": 70.0,
+    "camera.azimuth_deg": 10.0,
+    "camera.fov_deg": 30.0,
+    "camera.observer": "zamo",
+    "rays.model": "kerr_like",
+    "rays.step_angle": 0.3,
+    "rays.orders": 1,
+    "rays.lensing": False,
+    "disk.enabled": False,
+}
+
+
+@pytest.mark.parametrize("key", SHADING_ONLY)
+def test_what_does_not_bend_light_keeps_the_hit_map(renderer: Renderer, key: str) -> None:
+    scene = presets.load(["kerr"])
+    renderer.render(scene, 0.0, SIZE)
+    traces = renderer.hit_map.traces
+    assert not renderer.render(scene.with_values({key: SHADING_ONLY[key]}), 0.0, SIZE).traced
+    assert renderer.hit_map.traces == traces
+
+
+@pytest.mark.parametrize("key", TRACED_ANEW)
+def test_what_bends_light_traces_anew(renderer: Renderer, key: str) -> None:
+    scene = presets.load(["kerr"])
+    renderer.render(scene, 0.0, SIZE)
+    before = renderer.hits()
+    assert renderer.render(scene.with_values({key: TRACED_ANEW[key]}), 0.0, SIZE).traced
+    after = renderer.hits()
+    changed = (not np.array_equal(before.direction, after.direction)) or (not np.array_equal(before.crossing, after.crossing))
+    assert changed, "traced anew for nothing"
+
+
+def test_time_goes_on_without_tracing(renderer: Renderer) -> None:
+    scene = presets.load(["kerr"])
+    renderer.render(scene, 0.0, SIZE)
+    first, traces = renderer.read_rgb8(), renderer.hit_map.traces
+    renderer.render(scene, 5.0, SIZE)
+    assert renderer.hit_map.traces == traces
+    assert not np.array_equal(renderer.read_rgb8(), first), "the disk turns"
+
+
+def test_a_new_size_traces_anew(renderer: Renderer) -> None:
+    scene = presets.load(["kerr"])
+    renderer.render(scene, 0.0, SIZE)
+    assert renderer.render(scene, 0.0, (32, 18)).traced
+
+
+@pytest.mark.parametrize("time", [0.0, 3.5, 36000.0 * 4.0])
+def test_the_same_asked_twice_is_the_same_picture(renderer: Renderer, time: float) -> None:
+    scene = presets.load(["kerr", "particle_storm"])
+    renderer.render(scene, time, SIZE)
+    first = renderer.read_rgb8()
+    renderer.render(presets.load(["schwarzschild"]), 1.0, (16, 16))  # something else in between
+    renderer.render(scene, time, SIZE)
+    np.testing.assert_array_equal(renderer.read_rgb8(), first)
+
+
+def test_another_renderer_draws_the_same_picture(renderer: Renderer) -> None:
+    scene = presets.load(["kerr"])
+    renderer.render(scene, 3.5, SIZE)
+    other = Renderer(renderer.ctx)
+    other.render(scene, 3.5, SIZE)
+    np.testing.assert_array_equal(other.read_rgb8(), renderer.read_rgb8())
+    other.release()
+
+
+def test_a_still_in_tiles_is_the_frame(renderer: Renderer) -> None:
+    """1 × 1 samples in tiles of 512 against one frame: only what pixels at a tile's edge read of their neighbours may differ."""
+    scene = presets.load(["kerr", "smooth"], {"sky.enabled": False})
+    size = (600, 8)
+    renderer.render(scene, 0.0, size)
+    frame = renderer.read_rgb8().astype(int)
+    renderer.render_still(scene, 0.0, size)
+    np.testing.assert_allclose(renderer.read_rgb8().astype(int), frame, atol=1)

@@ -1,0 +1,73 @@
+"""Every shipped preset draws: no ray without a fate, no pixel that is not finite; and a mirrored scene has mirrored hits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl import presets
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.resources import presets_dir
+from blackhole_gl.scene import Scene
+
+SIZE = (320, 180)
+SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
+WHOLE = [info.name for info in SHIPPED if info.group in ("physics", "scene")]
+LOOKS = [info.name for info in SHIPPED if info.group == "look"]
+QUALITIES = [info.name for info in SHIPPED if info.group == "quality"]
+
+
+def assert_sound(renderer: Renderer, scene: Scene) -> None:
+    renderer.render(scene, 3.5, SIZE)
+    hits = renderer.hits()
+    assert np.count_nonzero(hits.fate == 0) == 0, "unresolved rays"
+    for name in ("direction", "lambda_", "crossing"):
+        assert np.all(np.isfinite(getattr(hits, name))), name
+    assert np.all(np.isfinite(renderer.radiance()))
+    length = np.linalg.norm(hits.direction, axis=-1)
+    np.testing.assert_allclose(length, np.where(hits.fate == 1, 1.0, 0.0), atol=1e-6)
+    picture = renderer.read_rgb8()
+    assert picture.shape == (SIZE[1], SIZE[0], 3)
+    assert picture.max() > 100 and picture.min() < 30, "a picture has light and dark"
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_physics_and_scenes(renderer: Renderer, name: str) -> None:
+    assert_sound(renderer, presets.load([name]))
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_looks(renderer: Renderer, look: str) -> None:
+    assert_sound(renderer, presets.load(["kerr_06", look]))
+
+
+@pytest.mark.parametrize("model", ["kerr_0998_85", "schwarzschild"])
+@pytest.mark.parametrize("quality", QUALITIES)
+def test_qualities(renderer: Renderer, model: str, quality: str) -> None:
+    assert_sound(renderer, presets.load([model, quality]))
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_no_preset_leaves_a_ray_unresolved_at_the_coarsest_quality(renderer: Renderer, name: str) -> None:
+    renderer.render(presets.load([name, "low"]), 0.0, SIZE)
+    assert np.count_nonzero(renderer.hits().fate == 0) == 0
+
+
+MIRRORED = [(name, "medium") for name in WHOLE] + [("kerr_0998_85", quality) for quality in QUALITIES]
+
+
+@pytest.mark.parametrize("name, quality", MIRRORED)
+def test_negative_spin_mirrors_the_hits(renderer: Renderer, name: str, quality: str) -> None:
+    """a → −a is the reflection y → −y of the world, with the camera in the plane y = 0 that it leaves alone."""
+    scene = presets.load([name, quality], {"camera.azimuth_deg": 0.0})
+    spin = scene.hole.spin
+    renderer.render(scene, 0.0, SIZE)
+    hits = renderer.hits()
+    renderer.render(scene.with_values({"hole.spin": -spin}), 0.0, SIZE)
+    mirrored = renderer.hits()
+    flip = np.array([1.0, -1.0, 1.0])
+    np.testing.assert_array_equal(mirrored.fate[:, ::-1], hits.fate)
+    np.testing.assert_array_equal(mirrored.steps[:, ::-1], hits.steps)
+    np.testing.assert_allclose(mirrored.direction[:, ::-1] * flip, hits.direction, atol=1e-6)
+    np.testing.assert_allclose(mirrored.crossing[:, ::-1] * flip[:2], hits.crossing, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(-mirrored.lambda_[:, ::-1], hits.lambda_, rtol=1e-6, atol=1e-6)

@@ -1,0 +1,123 @@
+"""Composed shader text, and the way back from a driver's line to the author's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from blackhole_gl.glsl.compose import Composed, ShaderError, compose
+
+
+@pytest.fixture
+def shaders(tmp_path: Path):
+    def write(**files: str) -> Path:
+        for name, text in files.items():
+            path = tmp_path / name.replace("__", "/")
+            path = path.with_suffix(".glsl") if not path.suffix else path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return tmp_path
+
+    return write
+
+
+def test_includes_are_recursive_and_taken_once(shaders):
+    root = shaders(main='#include "a.glsl"\n#include "b.glsl"\nvoid main() {}\n', a='#include "b.glsl"\nint a;\n', b="int b;\n")
+    made = compose(root, "main.glsl")
+    assert made.text == "int b;\nint a;\nvoid main() {}\n"
+    assert made.places == (("b.glsl", 1), ("a.glsl", 2), ("main.glsl", 3))
+
+
+def test_includes_of_each_other_end(shaders):
+    root = shaders(a='#include "b.glsl"\nint a;\n', b='#include "a.glsl"\nint b;\n')
+    assert compose(root, "a.glsl").text == "int b;\nint a;\n"
+
+
+def test_directives_in_comments_are_left_alone(shaders):
+    text = '/* #include "missing.glsl"\n#include "missing.glsl"\n*/ int a;\n// #include "missing.glsl"\n/* */ /* open\n#slot nothing\n*/\nint b; // /*\nint c;\n'
+    assert compose(shaders(main=text), "main.glsl").text == text
+
+
+def test_slots_take_what_was_chosen(shaders):
+    root = shaders(
+        main="#slot model\n#slots layer\nvoid f() {\n    #each layer : x = $key(x);\n}\n",
+        models__kerr="int kerr;\n",
+        layers__one="int one;\n",
+        layers__two="int two;\n",
+    )
+    made = compose(root, "main.glsl", chosen={"model": ["models/kerr.glsl"], "layer": ["layers/one.glsl", "layers/two.glsl"]})
+    assert made.text == "int kerr;\nint one;\nint two;\nvoid f() {\nx = one(x);\nx = two(x);\n}\n"
+    assert made.place(6) == ("main.glsl", 4)
+    assert compose(root, "main.glsl", chosen={"model": [], "layer": []}).text == "void f() {\n}\n"
+
+
+def test_only_switches_that_the_text_mentions_are_written(shaders):
+    root = shaders(main="#version 330 core\n#defines\n#if DISK_BEAMING\nint a;\n#endif\n")
+    made = compose(root, "main.glsl", switches={"DISK_BEAMING": 1, "DISK_BEAMING_MORE": 1, "SKY_ENABLED": 0})
+    assert made.defines == {"DISK_BEAMING": 1}
+    assert made.text.splitlines()[1] == "#define DISK_BEAMING 1"
+    assert made.place(3) == ("main.glsl", 3)
+
+
+def test_blocks_are_put_in_and_keep_the_lines_right(shaders):
+    made = compose(shaders(main="#blocks\nint a;\n"), "main.glsl", blocks="uniform B {\n    float x;\n};")
+    assert made.text == "uniform B {\n    float x;\n};\nint a;\n"
+    assert made.place(2) == ("main.glsl", 1) and made.place(4) == ("main.glsl", 2)
+
+
+@pytest.mark.parametrize(
+    "text, place, words",
+    [
+        ('int a;\n#include "missing.glsl"\n', ("main.glsl", 2), "no shader file missing.glsl"),
+        ("#include <noise.glsl>\n", ("main.glsl", 1), 'write #include "path'),
+        ("#slot sky\n", ("main.glsl", 1), "no slot 'sky'"),
+    ],
+)
+def test_mistakes_in_directives_are_named(shaders, text, place, words):
+    with pytest.raises(ShaderError, match=words) as caught:
+        compose(shaders(main=text), "main.glsl")
+    assert (caught.value.file, caught.value.line) == place
+    assert str(caught.value).startswith(f"{place[0]}:{place[1]}: ")
+
+
+def test_a_missing_main_file_has_no_place(tmp_path):
+    with pytest.raises(ShaderError) as caught:
+        compose(tmp_path, "none.frag")
+    assert caught.value.file == "" and "none.frag" in str(caught.value)
+
+
+COMPOSED = Composed("a\nb\nc\nd\n", (("main.frag", 1), ("common/noise.glsl", 7), ("common/noise.glsl", 8), ("main.frag", 3)), {})
+
+# As the drivers write them; Mesa's with and without a trailing space, NVIDIA's with its code, AMD's, Intel's on Windows and Apple's alike.
+LOGS = {
+    "Mesa": "0:2(14): error: `foo' undeclared\n0:4(1): error: type mismatch\n",
+    "NVIDIA": '0(2) : error C1503: undefined variable "foo"\n0(4) : error C0000: syntax error\n',
+    "AMD": "ERROR: 0:2: 'foo' : undeclared identifier \nERROR: 0:4: '' : compilation terminated \n",
+    "Apple": "ERROR: 0:2: Use of undeclared identifier 'foo'\nERROR: 0:4: Invalid call\n",
+    "moderngl's own heading": "GLSL Compiler failed\n\nfragment_shader\n===============\n0:2(14): error: `foo' undeclared\n0:4(1): error: type mismatch\n",
+}
+
+
+@pytest.mark.parametrize("driver", LOGS)
+def test_every_drivers_log_leads_back_to_the_author(driver):
+    error = COMPOSED.explain(LOGS[driver])
+    assert (error.file, error.line) == ("common/noise.glsl", 7)
+    first, second = str(error).splitlines()
+    assert first.startswith("common/noise.glsl:7: ") and "foo" in first
+    assert second.startswith("main.frag:3: ")
+
+
+def test_a_warning_does_not_hide_the_error():
+    error = COMPOSED.explain("0:1(1): warning: `x' used uninitialized\n0:3(2): error: no such thing\n")
+    assert (error.file, error.line) == ("common/noise.glsl", 8)
+    assert "warning" in str(error)
+
+
+def test_a_log_without_places_is_handed_on():
+    error = COMPOSED.explain("  out of memory\n")
+    assert (error.file, error.line, str(error)) == ("", 0, "out of memory")
+
+
+def test_lines_beyond_the_text_have_no_place():
+    assert COMPOSED.place(0) == COMPOSED.place(99) == ("", 0)

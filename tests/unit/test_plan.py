@@ -1,0 +1,83 @@
+"""The plan fits its parts together, gives a ray the steps it needs and says why."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from blackhole_gl import catalogue, plan, relativity
+from blackhole_gl.scene import Scene, SceneError
+
+
+def planned(keep_crossings: bool = False, **changes) -> plan.RayPlan:
+    return plan.plan(Scene().with_values({key.replace("__", "."): value for key, value in changes.items()}), keep_crossings=keep_crossings)
+
+
+def test_lensing_off_is_flat_space():
+    made = planned(rays__lensing=False)
+    assert made.model.key == "flat" and made.integrator is None and made.evaluations_per_step == 0
+    assert any("lensing is off" in reason for reason in made.reasons)
+    assert made.method == "flat"
+
+
+def test_a_step_control_that_does_not_fit_gives_way_and_says_so():
+    made = planned(rays__model="kerr", rays__step_control="fixed")
+    assert made.step_control.key == "mino"
+    assert any("fixed" in reason and "kerr" in reason for reason in made.reasons)
+    assert planned(rays__model="schwarzschild", rays__step_control="fixed").step_control.key == "fixed"
+
+
+def test_orders_follow_the_disk():
+    assert planned(rays__orders=2).orders == 2
+    off = planned(disk__enabled=False, rays__orders=2)
+    assert off.orders == 0 and any("disk is off" in reason for reason in off.reasons)
+    assert planned(True, disk__enabled=False, rays__orders=2).orders == 2
+
+
+@pytest.mark.parametrize("model", ["kerr", "schwarzschild"])
+def test_steps_are_stretched_where_too_few_are_allowed(model):
+    made = planned(rays__model=model, rays__max_steps=8, rays__step_angle=0.05, rays__step_length=0.05)
+    assert made.max_steps == 8
+    assert made.step_angle > 0.05 and made.step_length > 0.05
+    assert any("times longer than asked" in reason for reason in made.reasons)
+    roomy = planned(rays__model=model, rays__max_steps=30000)
+    assert (roomy.step_angle, roomy.step_length) == (0.2, 0.1)
+
+
+@pytest.mark.parametrize("distance", [1.001, 20.0, 1e4, math.inf])
+@pytest.mark.parametrize("gravity", [0.1, 1.0, 10.0])
+def test_every_camera_gets_a_plan(distance, gravity):
+    for model in catalogue.keys("ray_model"):
+        for control in catalogue.keys("step_control"):
+            made = planned(rays__model=model, rays__step_control=control, camera__distance=distance, hole__gravity_strength=gravity)
+            assert 0.0 < made.step_length < math.inf and 0.0 < made.step_angle < math.inf
+
+
+def test_the_method_is_named_in_a_few_words():
+    assert planned(rays__model="kerr").method == "kerr, rk4, κ = 0.2"
+    assert planned(rays__model="schwarzschild", rays__step_length=0.5).method == "schwarzschild, rk4, radius, Δt₀ = 0.5"
+    assert planned().evaluations_per_step == 4
+
+
+def test_parts_that_cannot_be_combined_are_refused(monkeypatch):
+    monkeypatch.setattr(catalogue, "reasons_against", lambda *_: ["these do not go together"])
+    with pytest.raises(SceneError, match="rays.integrator: these do not go together"):
+        planned()
+
+
+@pytest.mark.parametrize("spin, orbit", [(0.0, "prograde"), (0.9, "prograde"), (0.9, "retrograde"), (-0.9, "prograde")])
+def test_the_disk_never_reaches_inside_the_isco(spin, orbit):
+    scene = Scene().with_values({"hole.spin": spin, "disk.orbit": orbit, "disk.inner_radius": 0.5})
+    assert plan.effective_disk_radii(scene)[0] == pytest.approx(float(relativity.isco_radius(spin, orbit)))
+    assert plan.effective_disk_radii(scene.with_values({"disk.inner_radius": 9.0}))[0] == 9.0
+
+
+def test_the_outer_edge_is_never_inside_the_inner_one():
+    inner, outer = plan.effective_disk_radii(Scene().with_values({"disk.outer_radius": 1.0}))
+    assert outer > inner == 3.0
+
+
+def test_far_rays_are_finished_in_closed_form_farther_out_where_gravity_is_stronger():
+    assert plan.march_bound(Scene()) == plan.MARCH_BOUND
+    assert plan.march_bound(Scene().with_values({"hole.gravity_strength": 4.0})) == 4.0 * plan.MARCH_BOUND
