@@ -8,10 +8,15 @@ layout(location = 1) out vec4 hits1_out;  // crossing 0, λ, unused
 layout(location = 2) out vec4 hits2_out;  // crossings 1 and 2
 #endif
 
+// Looks at the bits: compilers take liberties with comparisons of what is no number, Mesa's among them.
+bool is_finite(vec3 v) {
+    return all(notEqual(floatBitsToUint(v) & uvec3(0x7f800000u), uvec3(0x7f800000u)));
+}
+
 // Hits with every number finite: what is not becomes an unresolved ray.
 Hits only_finite(Hits hits) {
-    vec4 size = vec4(dot(hits.direction, hits.direction), dot(hits.crossing[0], hits.crossing[0]), dot(hits.crossing[1], hits.crossing[1]), dot(hits.crossing[2], hits.crossing[2]));
-    if (all(lessThan(size, vec4(1e30)))) return hits;  // false for NaN
+    bool plane = is_finite(vec3(hits.crossing[0], hits.lambda)) && is_finite(vec3(hits.crossing[1], 0.0)) && is_finite(vec3(hits.crossing[2], 0.0));
+    if (plane && is_finite(hits.direction)) return hits;
     Hits failed = no_hits(0.0);
     failed.steps = hits.steps;
     return failed;
