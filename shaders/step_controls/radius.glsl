@@ -7,8 +7,6 @@ rank = 1
 fits = ["cartesian"]
 ---*/
 
-// Inside r = G, where only the artistic horizon sizes let a ray be, the angle turned per length grows as G/r.
 float step_size(Orbit orbit, State s) {
-    float r = ray_radius(s);
-    return plan_step_length * r * min(1.0, r / hole_gravity_strength) / 3.0;
+    return ray_plain_step(orbit, s);
 }
