@@ -10,7 +10,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test clean
+.PHONY: help setup view test gallery clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -27,6 +27,10 @@ view: ## open the viewer; without a display, write a picture
 test: ## run the whole test suite
 	@$(SETUP) test
 	$(BIN)/python -m pytest -n $(WORKERS) $(PYTEST_ARGS)
+
+gallery: ## the pictures of the README anew, into docs/pictures
+	@$(SETUP) run
+	$(BIN)/python tools/make_gallery.py
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
