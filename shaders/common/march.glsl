@@ -13,13 +13,24 @@
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
 
+//     RAY_QUADRATURE                              optional: names a function (Orbit, State a, float h, inout State b) that completes
+//                                                 what follows from a step but drives nothing
+
+State march_step(Orbit orbit, State s, float h) {
+    State next = integrator_step(orbit, s, h);
+#ifdef RAY_QUADRATURE
+    RAY_QUADRATURE(orbit, s, h, next);
+#endif
+    return next;
+}
+
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
 // so that the crossing is as accurate as the march and not as the polynomial.
 #if ORDERS > 0
 void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits hits) {
     float t = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
     if (t >= end) return;
-    State there = integrator_step(orbit, a, h * t);
+    State there = march_step(orbit, a, h * t);
     float slip = clamp(-ray_height(there) / ray_height_rate(there), -0.1 * h, 0.1 * h);
     there = state_step(there, slip, ray_rhs(orbit, there));
     vec2 point = ray_plane_point(there);
@@ -46,7 +57,7 @@ Hits trace_ray(RayStart start) {
         while (steps < plan_max_steps) {
             s = next;
             h = step_size(orbit, s);
-            next = integrator_step(orbit, s, h);
+            next = march_step(orbit, s, h);
             ++steps;
             fate = ray_fate(orbit, next);
 #if ORDERS > 0
@@ -64,6 +75,6 @@ Hits trace_ray(RayStart start) {
     }
     hits.steps = steps;
     hits.fate = fate;
-    if (fate == ESCAPED) ray_finish(orbit, integrator_step(orbit, s, h * end), hits);
+    if (fate == ESCAPED) ray_finish(orbit, march_step(orbit, s, h * end), hits);
     return hits;
 }
