@@ -215,9 +215,8 @@ def critical_curve(spin: float, theta: float, samples: int = 512) -> tuple[Array
         return radius * np.sin(turn), radius * np.cos(turn)
     low, high = _visible_orbits(spin, theta)
     s = 0.5 * (low + high) + 0.5 * (high - low) * np.sin(turn)
-    lam, _ = spherical_photon_orbit(s, spin)
-    beta2 = _beta_squared(s, spin, cosine, sine)
-    return -lam / sine, np.sign(np.cos(turn)) * np.sqrt(np.maximum(beta2, 0.0))
+    beta = np.sqrt(np.maximum(_beta_squared(s, spin, cosine, sine), 0.0))
+    return -spherical_photon_orbit(s, spin)[0] / sine, np.sign(np.cos(turn)) * beta
 
 
 def _beta_squared(s: ArrayLike, spin: float, cosine: float, sine: float) -> Array:
@@ -273,8 +272,7 @@ def falls_in(n_r: ArrayLike, n_theta: ArrayLike, n_phi: ArrayLike, r: ArrayLike,
     """
     photon = photon_constants(n_theta, n_phi, r, theta, spin, observer)
     r_o, sine, *_ = _metric(r, theta, spin)
-    a = np.float64(spin)
-    bound = photon.energy <= 0.0
+    a, bound = np.float64(spin), photon.energy <= 0.0
     energy = np.where(bound, 1.0, photon.energy)
     a_lambda = a * sine * photon.l_over_sin / energy
     y = _barrier_offset(a * a, a_lambda)

@@ -79,7 +79,7 @@ class Disk:
     thickness: float = number(0.5, 0.01, 2.0, "r_s", "Thickness of the look layers' pattern; the disk itself is thin.")
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
     temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
-    temperature_k: float = number(6500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
+    temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
     frequency_shift: str = choice("exact", ("exact", "s0", "s1"), "The g-factor: exact, or the formula of an older viewer.", physical="exact")
     beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
     doppler_colour: bool = switch(True, "Shift the colour by the motion of the matter.", physical=True)

@@ -53,14 +53,19 @@ class Motion:
 
     @property
     def at_rest(self) -> bool:
+        """Whether the camera is where the hand wants it."""
         return self.current == self.target
 
     def advanced(self, wanted: Pose, dt: float) -> Motion:
         """After `dt` seconds in which the target moved evenly to `wanted`."""
         if dt < _INSTANT_S:
             return replace(self, target=wanted)
-        followed = [_follow(getattr(self.current, name), getattr(self.target, name), getattr(wanted, name), dt) for name in ("azimuth", "inclination", "reach")]
-        current = Pose(*followed)
+        old, here = self.target, self.current
+        current = Pose(
+            _follow(here.azimuth, old.azimuth, wanted.azimuth, dt),
+            _follow(here.inclination, old.inclination, wanted.inclination, dt),
+            _follow(here.reach, old.reach, wanted.reach, dt),
+        )
         return Motion(wanted if _is_near(current, wanted) else current, wanted)
 
 

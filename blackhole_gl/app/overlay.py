@@ -9,7 +9,8 @@ from .picture import Picture
 from .state import WindowState
 
 _FLAGS = imgui.WindowFlags_
-_FIXED = (_FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_saved_settings | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing | _FLAGS.no_nav | _FLAGS.no_move).value
+_STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
+_FIXED = (_STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
 _UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
 
 Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
@@ -21,19 +22,19 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
     if not state.show_overlay or report is None:
         return
     imgui.set_next_window_pos(corner)
-    imgui.set_next_window_bg_alpha(0.45)
+    imgui.set_next_window_bg_alpha(0.6)
     imgui.begin("##figures", None, _UNTOUCHED)
     speed = f"{imgui.get_io().framerate:.0f} fps" if state.is_moving else "at rest"
     trace = f"{report.trace_ms:.1f} ms" if report.traced else "kept"
-    imgui.text_colored(theme.DIM, f"{speed}, paused" if state.paused else speed)
-    imgui.text_colored(theme.DIM, f"trace {trace}   shade {report.shade_ms:.1f} ms   post {report.post_ms:.1f} ms")
-    imgui.text_colored(theme.DIM, report.method)
+    imgui.text_colored(theme.QUIET, f"{speed}, paused" if state.paused else speed)
+    imgui.text_colored(theme.QUIET, f"trace {trace}   shade {report.shade_ms:.1f} ms   post {report.post_ms:.1f} ms")
+    imgui.text_colored(theme.QUIET, report.method)
     if picture.rays is not None:
-        imgui.text_colored(theme.DIM, f"{picture.rays.steps:.1f} steps a ray")
-        colour = theme.ERROR if picture.rays.unresolved else theme.DIM
+        imgui.text_colored(theme.QUIET, f"{picture.rays.steps:.1f} steps a ray")
+        colour = theme.ERROR if picture.rays.unresolved else theme.QUIET
         imgui.text_colored(colour, f"{picture.rays.unresolved} unresolved rays")
     if picture.divisor > 1:
-        imgui.text_colored(theme.DIM, f"1/{picture.divisor} of the pixels each way while moving")
+        imgui.text_colored(theme.QUIET, f"1/{picture.divisor} of the pixels each way while moving")
     imgui.end()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Mapping
+from typing import Mapping, Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -24,8 +24,12 @@ class Panel:
         self._presets = presets.available()
         self._filter = ""
 
-    def draw(self, state: WindowState) -> None:
-        """Draws the panel into the current window."""
+    def draw(self, state: WindowState, reasons: Sequence[str]) -> None:
+        """Draws the panel into the current window.
+
+        Args:
+            reasons: why rays are traced as they are, a phrase each.
+        """
         self._pickers(state)
         self._files(state)
         _departures(state)
@@ -36,7 +40,11 @@ class Panel:
         for section, items in _sections().items():
             shown = [item for item in items if _matches(item, wanted) and _is_active(item, state.scene)]
             if shown:
-                _section(section, shown, state, forced_open=bool(wanted))
+                is_open = _section(section, shown, state, forced_open=bool(wanted))
+                if is_open and section == "rays" and reasons:
+                    imgui.push_style_color(imgui.Col_.text, theme.DIM)
+                    imgui.text_wrapped("Now: " + "; ".join(reasons))
+                    imgui.pop_style_color()
 
     def _pickers(self, state: WindowState) -> None:
         if not imgui.begin_table("pickers", 2):
@@ -103,16 +111,17 @@ def _sections() -> Mapping[str, list[Field]]:
     return sections
 
 
-def _section(section: str, items: list[Field], state: WindowState, *, forced_open: bool) -> None:
+def _section(section: str, items: list[Field], state: WindowState, *, forced_open: bool) -> bool:
+    """Draws one section; True when it is open."""
     if forced_open:
         imgui.set_next_item_open(True)
     else:
         imgui.set_next_item_open(section in _OPEN_AT_START, imgui.Cond_.first_use_ever.value)
     if not imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}"):
-        return
+        return False
     group = None
     if not imgui.begin_table(f"values of {section}", 2):
-        return
+        return True
     _columns()
     for item in items:
         plug_in = _plug_in_of(item)
@@ -121,6 +130,7 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
             _subheading(group)
         widgets.row(item, state.scene.get(item.key), state.change)
     imgui.end_table()
+    return True
 
 
 def _subheading(plug_in: catalogue.PlugIn | None) -> None:

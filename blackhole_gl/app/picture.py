@@ -44,6 +44,7 @@ class Area:
 
     @property
     def is_empty(self) -> bool:
+        """Whether it holds no pixel."""
         return self.width < 1 or self.height < 1
 
     def coarsened(self, divisor: int) -> tuple[int, int]:
@@ -83,7 +84,8 @@ class Picture:
         self._shown: moderngl.Framebuffer | None = None
         self._spare: moderngl.Framebuffer | None = None
         self._made_of: tuple | None = None
-        self._cost_ms: dict[bool, float] = {}  # of a picture at full size, by whether the camera moves
+        # What a picture of full size costs. Before the first it is unknown, and a coarse one comes sooner.
+        self._trace_ms = self._shade_ms = math.inf
         self._divisors: dict[bool, int] = {}
         self._rays_stale = True
 
@@ -111,8 +113,10 @@ class Picture:
         self._made_of = wanted
         self.report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True)
         self._shown, self._spare = self._spare, self._shown
-        took = self.report.trace_ms + self.report.shade_ms + self.report.post_ms
-        self._cost_ms[camera_moving] = took * self.divisor**2
+        full = self.divisor**2
+        self._shade_ms = (self.report.shade_ms + self.report.post_ms) * full
+        if self.report.traced:
+            self._trace_ms = self.report.trace_ms * full
         self._rays_stale |= self.report.traced
         return True
 
@@ -130,11 +134,11 @@ class Picture:
 
     def _divisor_for(self, camera_moving: bool) -> int:
         budget, coarsest = _BUDGET[camera_moving]
-        needed = math.sqrt(self._cost_ms.get(camera_moving, 0.0) / budget)
+        needed = math.sqrt((self._shade_ms + (self._trace_ms if camera_moving else 0.0)) / budget)
         kept = self._divisors.get(camera_moving, 1)
         # A choice is kept while it is right to about a third, so that the picture does not hop between two sizes.
         if not kept - 1.3 < needed < kept + 0.3:
-            kept = min(max(math.ceil(needed), 1), coarsest)
+            kept = max(math.ceil(min(needed, coarsest)), 1)
         self._divisors[camera_moving] = kept
         return kept
 

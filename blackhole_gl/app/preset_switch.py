@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Iterable, Mapping
 
 from .. import presets
-from ..scene import Scene
 from .state import WindowState
 
 LAYERED = ("physics", "look", "quality")

@@ -163,7 +163,9 @@ class Window:
         may_idle: whether to sleep while nothing moves; a driver's input would not wake the window.
     """
 
-    def __init__(self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool):
+    def __init__(
+        self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool
+    ):
         self.open(scene, preset_names)
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
@@ -174,6 +176,8 @@ class Window:
         self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
+        self._editing = False
+        self._drawn_scene = scene
 
     def open(self, scene: Scene, preset_names: Iterable[str] = ()) -> None:
         """Starts afresh on `scene`, made from the presets of these names."""
@@ -220,7 +224,8 @@ class Window:
 
     def draw_panel(self) -> None:
         """The panel's own window."""
-        self._panel.draw(self.state)
+        report = self.picture.report if self.picture else None
+        self._panel.draw(self.state, report.reasons if report else ())
 
     def draw_picture(self) -> None:
         """Renders what changed and fills the free part of the window."""
@@ -275,22 +280,33 @@ class Window:
 
     def _render(self, area: Area) -> None:
         state = self.state
-        moving = state.is_moving and not state.picture_wanted
+        editing = self._is_editing()
+        moving = (state.is_moving or editing) and not state.picture_wanted
+        camera_moving = editing or state.dragging or not state.motion.at_rest
         try:
-            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=not state.motion.at_rest or state.dragging)
+            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=camera_moving)
         except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
             text = str(error) or type(error).__name__
             if text != state.render_error:  # once, and not for every frame of a drag
                 traceback.print_exc()
             state.render_error = text
-            return
+            rendered = False
         if rendered:
             state.render_error = None
         if state.show_overlay and not (rendered and self.picture.report.traced):
             self.picture.count_rays()
-        if state.picture_wanted:
-            state.picture_wanted = False
+        wanted, state.picture_wanted = state.picture_wanted, False
+        if wanted and state.render_error is None:
             scene_files.save_picture(state, self.picture.read_rgb8(), self._picture_folder)
+
+    def _is_editing(self) -> bool:
+        """Whether a slider is being dragged: from its first change until the button is let go."""
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._editing = False
+        elif imgui.is_any_item_active() and self.state.scene is not self._drawn_scene:
+            self._editing = True
+        self._drawn_scene = self.state.scene
+        return self._editing
 
     def _reload_shaders(self) -> None:
         """Takes up shader files that were edited. The mistakes in them are shown; the programs they would replace stay."""

@@ -12,9 +12,9 @@ class Report:
     post_ms: float = 1.0
     traced: bool = False
     method: str = "flat colour"
+    reasons: tuple = ("it is quick",)
 
 
-@dataclass(frozen=True)
 class Hits:
     """As `blackhole_gl.render.hit_map.HitArrays`."""
 

@@ -261,6 +261,18 @@ def renderer_failure_is_shown(hands: Hands) -> None:
     assert hands.state.render_error is None
 
 
+def no_picture_of_what_failed(hands: Hands) -> None:
+    before = len(list((hands.folder.parent / PICTURES).glob("*.png")))
+    hands.press(Key.p)
+    hands.window.picture.renderer.fail = RuntimeError("out of order")
+    hands.press(Key.s)
+    hands.press(Key.f12)
+    hands.context.yield_(4)
+    assert not hands.state.picture_wanted
+    assert len(list((hands.folder.parent / PICTURES).glob("*.png"))) == before, "the picture kept is not of this scene"
+    hands.window.picture.renderer.fail = None
+
+
 def full_screen_and_back(hands: Hands) -> None:
     before = hands.window.view()
     hands.press(Key.f11)
