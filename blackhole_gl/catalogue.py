@@ -79,11 +79,15 @@ def reasons_against(model: str, integrator: str, step_control: str) -> list[str]
     ray_model = plug_ins("ray_model")[model]
     if ray_model.traits["kind"] == "closed":
         return []
+    scheme, control = plug_ins("integrator")[integrator], plug_ins("step_control")[step_control]
     reasons = []
-    for slot, key in (("integrator", integrator), ("step_control", step_control)):
-        fits = plug_ins(slot)[key].traits.get("fits", "all")
-        if fits != "all" and ray_model.traits["marches_in"] not in fits:
-            reasons.append(f"{key} fits models that march in {' or '.join(fits)}; {model} marches in {ray_model.traits['marches_in']}")
+    marches_in = ray_model.traits["marches_in"]
+    if marches_in not in control.traits.get("fits", (marches_in,)):
+        reasons.append(f"{step_control} fits models that march in {' or '.join(control.traits['fits'])}; {model} marches in {marches_in}")
+    if scheme.traits.get("second_order") and not ray_model.traits.get("second_order"):
+        reasons.append(f"{integrator} needs forces that depend on places alone; those of {model} depend on rates too")
+    if control.traits.get("needs_pair") and "pair_evaluations" not in scheme.traits:
+        reasons.append(f"{step_control} needs an integrator with an error estimate of its own; {integrator} has none")
     return reasons
 
 

@@ -60,7 +60,7 @@ def view(
     scene = _scene(preset, set_)
     if not display_present():
         out = Path("blackhole.png").resolve()
-        print("There is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can be opened.")
+        print("There is no display (DISPLAY is not set; under Wayland, XWayland sets it), so no window can be opened.")
         print("Rendering the scene to a picture instead …", flush=True)
         _render(scene, (1280, 720), 0.0, out, 1, "auto")
         print(f"Written: {out}")

@@ -44,16 +44,20 @@ class RayPlan:
 
     @property
     def evaluations_per_step(self) -> int:
-        """Right-hand-side evaluations in one step; 0 for closed models."""
-        return self.integrator.traits["evaluations"] if self.integrator else 0
+        """Right-hand-side evaluations in one step, tried ones included; 0 for closed models."""
+        if self.integrator is None:
+            return 0
+        evaluations = "pair_evaluations" if self.step_control.traits.get("needs_pair") else "evaluations"
+        return self.integrator.traits[evaluations] * self.step_control.traits.get("integrator_steps", 1)
 
     @property
     def method(self) -> str:
         """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
         if self.integrator is None:
             return self.model.key
-        step = f"κ = {self.step_angle:.3g}" if self.step_control.key == "mino" else f"{self.step_control.key}, Δt₀ = {self.step_length:.3g}"
-        return f"{self.model.key}, {self.integrator.key}, {step}"
+        step = f"κ = {self.step_angle:.3g}" if self.model.traits["marches_in"] == "mino" else f"Δt₀ = {self.step_length:.3g}"
+        control = "" if self.step_control.key == "mino" else f"{self.step_control.key}, "
+        return f"{self.model.key}, {self.integrator.key}, {control}{step}"
 
 
 def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
@@ -73,13 +77,14 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     if model.traits["kind"] == "closed":
         return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, tuple(reasons))
     control = scene.rays.step_control
-    if catalogue.reasons_against(model.key, scene.rays.integrator, control):
-        reasons.append(f"steps by {model.traits['step_control']}: {control} does not fit {model.key}")
+    against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
+    if against:
         control = model.traits["step_control"]
+        reasons.append(f"steps by {control}: {'; '.join(against)}")
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
         raise SceneError("rays.integrator", "; ".join(against))
-    stretch = _steps_needed(scene, control) / scene.rays.max_steps
+    stretch = _steps_needed(scene, model, catalogue.plug_ins("step_control")[control]) / scene.rays.max_steps
     if stretch > 1.0:
         reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
     stretch = max(1.0, stretch)
@@ -97,21 +102,27 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
 
 def march_bound(scene: Scene) -> float:
     """Radius in r_s beyond which outward rays are finished in closed form."""
-    return MARCH_BOUND * max(1.0, scene.hole.gravity_strength)
+    return MARCH_BOUND * max(1.0, scene.hole.gravity_strength) * observer.ray_model(scene).traits.get("march_bound", 1.0)
 
 
-def _steps_needed(scene: Scene, control: str) -> float:
-    """Steps of the asked length that take a ray in from the camera, `SPARE_TURNS` round the hole, and out again."""
-    if control == "mino":
-        return (math.pi + 2.0 * math.pi * SPARE_TURNS) / scene.rays.step_angle
+def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
+    """Steps of the asked length that take a ray in from the camera, `SPARE_TURNS` round the hole, and out again.
+
+    Adaptive controls find their own lengths: 0.
+    """
+    if control.traits.get("adapts"):
+        return 0.0
+    shortest = control.traits.get("shortest", 1.0)
+    if model.traits["marches_in"] == "mino":
+        return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
     bound = march_bound(scene)
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere
-    if control == "fixed":
+    if control.key == "fixed":
         return (far + 2.0 * bound + SPARE_TURNS * turn) / scene.rays.step_length
     legs = math.log(max(far / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere)
-    return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / scene.rays.step_length
+    return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / (scene.rays.step_length * shortest)
 
 
 def effective_disk_radii(scene: Scene) -> tuple[float, float]:

@@ -6,7 +6,7 @@ screen coordinates in M, spin a* in [-1, 1]. Inside the functions M = 1. Angles 
 "prograde" means co-rotating with the hole; where a* < 0 that is clockwise seen from +z, and a* = 0 counts as positive.
 
 Sources: Bardeen 1973 (*Black Holes*, Les Houches) [B73]; Bardeen, Press & Teukolsky 1972 (ApJ 178, 347) [BPT];
-Synge 1966 (MNRAS 131, 463); Darwin 1959 (Proc. R. Soc. A 249, 180); Page & Thorne 1974 (ApJ 191, 499) [PT];
+Synge 1966 (MNRAS 131, 463); Darwin 1959 (Proc. R. Soc. A 249, 180);
 Carlson 1995 (Numer. Algorithms 10, 13); Keeton & Petters 2005 (PRD 72, 104006).
 """
 
@@ -23,7 +23,7 @@ CRITICAL_IMPACT = 1.5 * np.sqrt(3.0)
 """b_c of Schwarzschild in r_s."""
 
 
-def _relative_spin(spin: ArrayLike, orbit: str) -> Array:
+def relative_spin(spin: ArrayLike, orbit: str) -> Array:
     """Spin as the orbiting matter sees it: positive if co-rotating. ValueError for an unknown orbit."""
     if orbit not in ("prograde", "retrograde"):
         raise ValueError(f"orbit must be 'prograde' or 'retrograde', not {orbit!r}")
@@ -57,16 +57,21 @@ def ergosphere_radius(spin: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def isco_radius(spin: ArrayLike, orbit: str = "prograde") -> Array:
-    """Innermost stable circular equatorial orbit in r_s [BPT eq. 2.21]."""
-    a = _relative_spin(spin, orbit)
-    z1 = 1.0 + np.cbrt((1.0 - a) * (1.0 + a)) * (np.cbrt(1.0 + a) + np.cbrt(1.0 - a))
+    """Innermost stable circular equatorial orbit in r_s [BPT eq. 2.21].
+
+    3 - Z1 is formed from s = (1+a)^(1/3) + (1-a)^(1/3), which satisfies (2-s)(s+1)^2 = 3 s a^2/(1+c+c^2): as printed, the
+    formula loses half its digits at small spins.
+    """
+    a = relative_spin(spin, orbit)
+    c, s = np.cbrt((1.0 - a) * (1.0 + a)), np.cbrt(1.0 + a) + np.cbrt(1.0 - a)
+    z1 = 1.0 + c * s
     z2 = np.sqrt(3.0 * a * a + z1 * z1)
-    return 0.5 * (3.0 + z2 - np.sign(a) * np.sqrt(np.maximum((3.0 - z1) * (3.0 + z1 + 2.0 * z2), 0.0)))
+    return 0.5 * (3.0 + z2 - a / (s + 1.0) * np.sqrt(s * (4.0 + s * (2.0 + s)) / (1.0 + c + c * c) * (3.0 + z1 + 2.0 * z2)))
 
 
 def photon_orbit_radius(spin: ArrayLike, orbit: str = "prograde") -> Array:
     """Circular equatorial photon orbit in r_s, 1 + cos(2/3 arccos(-+a)) [BPT eq. 2.18], from arcsin for small spins."""
-    return 1.5 + 0.5 * _photon_orbit_offset(_relative_spin(spin, orbit))
+    return 1.5 + 0.5 * _photon_orbit_offset(relative_spin(spin, orbit))
 
 
 def _photon_orbit_offset(a: Array) -> Array:
@@ -79,7 +84,7 @@ def _photon_orbit_offset(a: Array) -> Array:
 
 def orbital_frequency(r: ArrayLike, spin: ArrayLike, orbit: str = "prograde") -> Array:
     """Omega = d phi/d t in c/r_s of a circular equatorial geodesic at r (r_s) [BPT eq. 2.16]; negative is clockwise."""
-    a = _relative_spin(spin, orbit)
+    a = relative_spin(spin, orbit)
     return orbit_sense(spin, orbit) * 2.0 / ((2.0 * np.asarray(r, dtype=np.float64)) ** 1.5 + a)
 
 
@@ -88,7 +93,7 @@ def orbital_u_t(r: ArrayLike, spin: ArrayLike, orbit: str = "prograde") -> Array
 
     With x = sqrt(r), x^3 - 3x + 2a is formed as (x-1)^2 (x+2) - 2(1-a), which keeps its digits as a -> 1.
     """
-    a = _relative_spin(spin, orbit)
+    a = relative_spin(spin, orbit)
     x = np.sqrt(2.0 * np.asarray(r, dtype=np.float64))
     norm = (x - 1.0) ** 2 * (x + 2.0) - 2.0 * (1.0 - a)
     return (x**3 + a) / np.sqrt(np.where(norm > 0.0, x**3 * norm, np.nan))
@@ -268,23 +273,23 @@ def falls_in(n_r: ArrayLike, n_theta: ArrayLike, n_phi: ArrayLike, r: ArrayLike,
     """True where the backward ray along n of an observer at r (r_s) ends in the hole: the exact fate, without tracing.
 
     With V = (r^2 + a^2 - a lambda)^2/Delta a ray may be where V >= K/E^2. V falls from the horizon to its minimum at the
-    barrier r_p and then rises: a ray is turned there if K exceeds the minimum.
+    barrier r_p and then rises: a ray is turned there if K exceeds the minimum. Near r_p the difference V(r) - V(r_p) is
+    formed from its factors, (r - r_p)^2 (r^2 + 2 r_p r + q)/Delta.
     """
     photon = photon_constants(n_theta, n_phi, r, theta, spin, observer)
-    r_o, sine, *_ = _metric(r, theta, spin)
-    a, bound = np.float64(spin), photon.energy <= 0.0
+    r_o, sine, sigma, delta, _ = _metric(r, theta, spin)
+    n_r, a, bound = np.asarray(n_r, dtype=np.float64), np.float64(spin), photon.energy <= 0.0
     energy = np.where(bound, 1.0, photon.energy)
     a_lambda = a * sine * photon.l_over_sin / energy
     y = _barrier_offset(a * a, a_lambda)
-    r_p, r_plus = 1.0 + y, 1.0 + np.sqrt((1.0 - a) * (1.0 + a))
+    r_p, root = 1.0 + y, np.sqrt((1.0 - a) * (1.0 + a))
+    steepness = np.where(y > 0.0, (y - root) * (y + root) / np.where(y > 0.0, y, 1.0) ** 2, 1.0)  # Delta/(r-1)^2 at r_p
+    q = r_p * (r_p - 4.0 * steepness)
+    climb = (r_o - r_p) * energy * np.sqrt(np.maximum(r_o * (r_o + 2.0 * r_p) + q, 0.0) / delta)
+    captured = np.where(r_o > 2.0 * r_p, (n_r < 0.0) & (photon.k < 4.0 * (r_p * energy) ** 2 * steepness),
+                        np.sqrt(sigma) * n_r + climb < 0.0)
     # No barrier outside the horizon: its angular velocity keeps the light out (a lambda >= 2 r_+).
-    free = a_lambda >= 2.0 * r_plus
-    delta_p = (r_p - r_plus) * (r_p - 2.0 + r_plus)
-    minimum = np.where(y > 0.0, 4.0 * r_p**2 * delta_p / np.where(y > 0.0, y, 1.0) ** 2, 4.0 * r_p**2)
-    over = photon.k / energy**2 < minimum
-    inward = np.asarray(n_r) < 0.0
-    captured = np.where(r_o > r_p, inward & over, inward | ~over)
-    return bound | (captured & ~free)
+    return bound | (captured & (a_lambda < 2.0 * (1.0 + root)))
 
 
 def shadow_angle(chi: ArrayLike, r: float, theta: float, spin: float = 0.0, observer: str = "static") -> Array:
@@ -349,51 +354,3 @@ def carlson_rf(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
     dz = -dx - dy
     e2, e3 = dx * dy - dz * dz, dx * dy * dz
     return (1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0) / np.sqrt(mean)
-
-
-# --- the disk's emission ---------------------------------------------------------------------------------------------
-
-def page_thorne_flux(r: ArrayLike, spin: ArrayLike, orbit: str = "prograde") -> Array:
-    """Flux of a thin disk with no torque at the ISCO, up to a constant factor; 0 inside the ISCO. r in r_s [PT eq. 15n].
-
-    F = B/(x^4 (x^3 - 3x + 2a)), x = sqrt(r/M), and B the integral from the ISCO of (x^4-6x^2+8ax-3a^2)/(x (x^3-3x+2a)):
-    its closed form in logarithms, or near the ISCO, where that cancels, a Gauss-Legendre sum.
-    """
-    a = _relative_spin(spin, orbit)
-    x0 = np.sqrt(2.0 * isco_radius(spin, orbit))
-    x = np.maximum(np.sqrt(2.0 * np.asarray(r, dtype=np.float64)), x0)
-    roots = _page_thorne_roots(a)
-    near = x - x0 < 0.25 * (x0 - np.maximum(roots[0], roots[1]))
-    bracket = np.where(near, _page_thorne_sum(x, x0, a), _page_thorne_closed(x, x0, a, roots))
-    norm = (x - 1.0) ** 2 * (x + 2.0) - 2.0 * (1.0 - a)
-    return np.maximum(bracket, 0.0) / (x**4 * norm)
-
-
-def _page_thorne_roots(a: Array) -> tuple[Array, Array, Array]:
-    """Roots of x^3 - 3x + 2a; the one that vanishes with a comes from arcsin, to full relative precision."""
-    third = np.arcsin(a) / 3.0
-    return 2.0 * np.cos(np.pi / 6.0 + third), 2.0 * np.sin(third), -2.0 * np.cos(np.pi / 6.0 - third)
-
-
-def _page_thorne_closed(x: Array, x0: Array, a: Array, roots: tuple[Array, Array, Array]) -> Array:
-    total = x - x0 - 1.5 * a * np.log(x / x0)
-    for i, root in enumerate(roots):
-        others = root * (root - roots[i - 1]) * (root - roots[i - 2])
-        # At a = 0 and |a| = 1 a factor vanishes, and the square above it faster: the term is then 0.
-        weight = np.where(others != 0.0, 3.0 * (root - a) ** 2 / np.where(others != 0.0, others, 1.0), 0.0)
-        inner = x0 - root
-        total = total - weight * np.log(np.where(inner > 0.0, (x - root) / np.where(inner > 0.0, inner, 1.0), 1.0))
-    return total
-
-
-def _page_thorne_sum(x: Array, x0: Array, a: Array) -> Array:
-    nodes, weights = np.polynomial.legendre.leggauss(16)
-    half = 0.5 * (x - x0)
-    total = np.zeros_like(x)
-    for node, weight in zip(nodes, weights, strict=True):
-        # The numerator has its zero at the ISCO: Taylor's series about it, exact for a polynomial.
-        d = half * (1.0 + node)
-        y = x0 + d
-        numerator = d * (4.0 * x0**3 - 12.0 * x0 + 8.0 * a + d * (6.0 * x0**2 - 6.0 + d * (4.0 * x0 + d)))
-        total = total + weight * numerator / (y * (y**3 - 3.0 * y + 2.0 * a))
-    return half * total

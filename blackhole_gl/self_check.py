@@ -88,12 +88,13 @@ def _window() -> Finding:
     except ImportError as error:
         return Finding("window", False, f"{error}. Install the package's dependencies again: pip install blackhole-gl; on Debian or Ubuntu also: {context.INSTALL_LINE}")
     if not display_present():
-        return Finding("window", None, "no display (neither DISPLAY nor WAYLAND_DISPLAY is set): the viewer writes a picture instead")
+        return Finding("window", None, "no display (DISPLAY is not set; Wayland serves through XWayland, which sets it): the viewer writes a picture instead")
     return Finding("window", window is not None, "a display is there, and the window libraries load")
 
 
 def display_present() -> bool:
-    """Whether a window can be opened: always taken as yes but on Linux and the BSDs, where the environment tells."""
-    if sys.platform in ("win32", "darwin"):
-        return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    """Whether a window can be opened: always taken as yes but on Linux and the BSDs, where the environment tells.
+
+    The window library in imgui-bundle speaks X11 only; under Wayland, XWayland sets DISPLAY.
+    """
+    return sys.platform in ("win32", "darwin") or bool(os.environ.get("DISPLAY"))

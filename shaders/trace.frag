@@ -14,8 +14,8 @@
 #include "common/hit_map_write.glsl"
 #slot ray_model
 #if MARCHED
-#slot step_control
 #slot integrator
+#slot step_control
 #include "common/march.glsl"
 #endif
 

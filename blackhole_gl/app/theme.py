@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from imgui_bundle import ImVec4, imgui
+from imgui_bundle import ImVec4, hello_imgui, imgui
+
+FONT_SIZE = 15.0  # at 96 dpi; the runner scales it for the screen at hand
 
 ACCENT = ImVec4(0.95, 0.62, 0.25, 1.0)
 DEPARTS = ImVec4(0.98, 0.52, 0.22, 1.0)
@@ -18,6 +20,14 @@ def _grey(value: float, alpha: float = 1.0) -> ImVec4:
 
 def _accent(alpha: float) -> ImVec4:
     return ImVec4(ACCENT.x, ACCENT.y, ACCENT.z, alpha)
+
+
+def load_fonts() -> None:
+    """Loads the text font, and a second one for the signs it lacks (₀, ⁵, →). Both come with imgui-bundle."""
+    hello_imgui.load_font("fonts/DroidSans.ttf", FONT_SIZE)
+    second = hello_imgui.FontLoadingParams()
+    second.merge_to_last_font = True
+    hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", FONT_SIZE, second)
 
 
 def apply() -> None:

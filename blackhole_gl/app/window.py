@@ -137,6 +137,7 @@ def _runner_params(window: Window, size: tuple[int, int]) -> hello_imgui.RunnerP
     params.docking_params.dockable_windows = [panel]
     callbacks = params.callbacks
     callbacks.setup_imgui_config = _setup_imgui
+    callbacks.load_additional_fonts = theme.load_fonts
     callbacks.setup_imgui_style = theme.apply
     callbacks.post_init = window.start
     callbacks.pre_new_frame = window.before_frame

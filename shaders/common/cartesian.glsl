@@ -2,6 +2,8 @@
 // x in r_s, v = dx/dσ with the affine parameter σ scaled so that E = 1 (where G = 1). The world is the marched space turned about the spin axis
 // by the twist. A model gives
 //     float ray_twist_strength()    twist = −strength · ∫ dσ/r³
+//     float ray_newtonian_pull()    M of a force −M x/r³ beside the relativistic one; 0 where light is light
+//     float ray_drag()              k of a force −(k/r³) v × ẑ; 0 for central forces
 #include "common/central_orbit.glsl"
 
 struct State {
@@ -13,11 +15,13 @@ struct State {
 Orbit ray_orbit(RayStart start) {
     float h2 = 0.25 * dot(start.n_rate, start.n_rate);
     float u = 2.0 * start.w;
-    return Orbit(h2, 1.0 - (hole_gravity_strength - 1.0) * h2 * u * u * u);
+    // v² at the camera is 1 + h²u³ in the frame of a static observer; the viewers with a Newtonian pull start with |v| = 1.
+    float frame = ray_newtonian_pull() == 0.0 ? 1.0 : 0.0;
+    return Orbit(h2, 1.0 + (frame - hole_gravity_strength) * h2 * u * u * u - 2.0 * hole_gravity_strength * ray_newtonian_pull() * u);
 }
 
 vec2 twisted(vec2 point, float twist) {
-    return ray_twist_strength() == 0.0 ? point : rotate(point, cos_sin(twist));
+    return ray_twist_strength() == 0.0 && ray_drag() == 0.0 ? point : rotate(point, cos_sin(twist));
 }
 
 void add_leg_crossing(Orbit orbit, vec3 n, vec3 across, float u, float u_end, float twist, float sense, inout Hits hits) {
@@ -40,26 +44,53 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     vec3 across = turned(aside, -start.n, leg.x);
     float twist = -ray_twist_strength() * leg.y;
     if (start.n.z != 0.0) add_leg_crossing(orbit, n, -across, u, u_far, twist, -1.0, hits);
-    return State(n / u, h * u * across - radial_speed(orbit, u) * n, twist);
+    vec3 v = h * u * across - radial_speed(orbit, u) * n;
+    // The drag of the way in, to first order: it has turned the ray about the axis and, over that length of way, moved it aside.
+    vec3 aside_of_axis = ray_drag() * vec3(-v.y, v.x, 0.0);
+    return State(n / u + (0.5 * (u - u_far) * (u - u_far) / u) * aside_of_axis, v + leg.y * aside_of_axis, twist);
 }
 
 State ray_rhs(Orbit orbit, State s) {
     float u2 = 1.0 / dot(s.x, s.x);
     float u3 = u2 * sqrt(u2);
-    return State(s.v, (-1.5 * hole_gravity_strength * orbit.h2 * u2 * u3) * s.x, -ray_twist_strength() * u3);
+    float pull = hole_gravity_strength * (1.5 * orbit.h2 * u2 + ray_newtonian_pull()) * u3;
+    vec3 force = -pull * s.x;
+    force.xy += ray_drag() * u3 * vec2(-s.v.y, s.v.x);
+    return State(s.v, force, -ray_twist_strength() * u3);
 }
 
 State state_step(State s, float h, State k) {
     return State(s.x + h * k.x, s.v + h * k.v, s.twist + h * k.twist);
 }
 
+State state_kick(State s, float h, State k) {
+    return State(s.x, s.v + h * k.v, s.twist + h * k.twist);
+}
+
+State state_drift(State s, float h) {
+    return State(s.x + h * s.v, s.v, s.twist);
+}
+
+float state_difference(Orbit orbit, State a, State b) {
+    return distance(a.x, b.x) / length(b.x) + distance(a.v, b.v) + abs(a.twist - b.twist);
+}
+
 float ray_radius(State s) {
     return length(s.x);
 }
 
+float ray_plain_step(Orbit orbit, State s) {
+    return plan_step_length * ray_radius(s) / 3.0;
+}
+
+float ray_longest_step(Orbit orbit, State s) {
+    return 0.5 * ray_radius(s);
+}
+
 int ray_fate(Orbit orbit, State s) {
     float r2 = dot(s.x, s.x);
-    if (r2 < hole_horizon_size * hole_horizon_size) return CAPTURED;
+    float inner = 0.5 * hole_w_factors.x * hole_horizon_size;
+    if (r2 < inner * inner) return CAPTURED;
     float outward = dot(s.x, s.v);
     bool leaves = outward > 0.0 && outward * outward > OUTWARD_COSINE * OUTWARD_COSINE * r2 * dot(s.v, s.v);
     return leaves && r2 > march_bound * march_bound ? ESCAPED : UNRESOLVED;
@@ -78,7 +109,7 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     vec2 leg = orbit_leg(orbit, u, 0.0);
     add_leg_crossing(orbit, n, across, u, 0.0, s.twist, 1.0, hits);
     vec3 escape = turned(n, across, leg.x);
-    hits.direction = normalize(vec3(twisted(escape.xy, s.twist - ray_twist_strength() * leg.y), escape.z));
+    hits.direction = normalize(vec3(twisted(escape.xy, s.twist + (ray_drag() - ray_twist_strength()) * leg.y), escape.z));
 }
 
 float ray_height(State s) {
@@ -87,6 +118,10 @@ float ray_height(State s) {
 
 float ray_height_rate(State s) {
     return s.v.z;
+}
+
+float ray_elevation(State s) {
+    return s.x.z / ray_radius(s);
 }
 
 vec2 ray_plane_point(State s) {

@@ -1,5 +1,6 @@
-// Light in a spherical field, (dr/dσ)² = E² − h²u²(1 − G u) with u = 1/r (r_s = 1): the parts of an orbit that run
-// between far radii, in closed form. They make the escape direction independent of where a march stopped.
+// Light in a spherical field, (dr/dσ)² = E² − h²u²(1 − G u) + 2 G M u with u = 1/r (r_s = 1): the parts of an orbit that run
+// between far radii, in closed form. They make the escape direction independent of where a march stopped. M is the model's
+// ray_newtonian_pull(), 0 where light is light.
 
 const int LEG_NODES = 6;
 const float LEG_X[6] = float[6](0.033765243, 0.169395307, 0.380690407, 0.619309593, 0.830604693, 0.966234757);
@@ -16,7 +17,7 @@ struct Orbit {
 
 // |dr/dσ| at u = 1/r, on a part without a turning point.
 float radial_speed(Orbit orbit, float u) {
-    return sqrt(orbit.e2 - orbit.h2 * u * u * (1.0 - hole_gravity_strength * u));
+    return sqrt(orbit.e2 - orbit.h2 * u * u * (1.0 - hole_gravity_strength * u) + 2.0 * hole_gravity_strength * ray_newtonian_pull() * u);
 }
 
 // A monotonic leg between u0 and u1: (angle swept, ∫ u³ dσ).

@@ -12,16 +12,27 @@
 //     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
+// and, for those integrators and step controls that ask for them,
+//     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
+//     float state_difference(Orbit, State a, State b)   about the angle in radians by which two ends of one step differ
+//     float ray_plain_step(Orbit, State), ray_longest_step(Orbit, State)   the step before any control; the longest in which nothing is missed
+//     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
+// RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
+// RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
+//
+// A step control gives step_size(Orbit, State), or with STEP_ADAPTS
+//     State adapted_step(Orbit, State s, inout float trial, out float h)   one step of length h ≤ trial; rejected: s itself, with h = 0
+// An integrator gives integrator_step(Orbit, State, float h), one with an error estimate also integrator_pair and INTEGRATOR_ERROR_POWER.
 
-//     RAY_QUADRATURE                              optional: names a function (Orbit, State a, float h, inout State b) that completes
-//                                                 what follows from a step but drives nothing
-
-State march_step(Orbit orbit, State s, float h) {
-    State next = integrator_step(orbit, s, h);
+State completed(Orbit orbit, State s, float h, State next) {
 #ifdef RAY_QUADRATURE
     RAY_QUADRATURE(orbit, s, h, next);
 #endif
     return next;
+}
+
+State march_step(Orbit orbit, State s, float h) {
+    return completed(orbit, s, h, integrator_step(orbit, s, h));
 }
 
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
@@ -49,15 +60,26 @@ Hits trace_ray(RayStart start) {
     float end = 1.0;
     int fate = UNRESOLVED;
     int steps = 0;
+#ifdef STEP_ADAPTS
+    float trial = ray_plain_step(orbit, s);
+#endif
 #if ORDERS > 0
     float side = sign(ray_height(s));  // 0: the camera's own place in the plane does not count
 #endif
     for (int leg = 0; leg <= ORDERS; ++leg) {
         bool crossed = false;
         while (steps < plan_max_steps) {
+#ifdef RAY_RECHARTS
+            next = ray_recharted(s, next);
+#endif
             s = next;
+#ifdef STEP_ADAPTS
+            next = adapted_step(orbit, s, trial, h);
+            next = completed(orbit, s, h, next);
+#else
             h = step_size(orbit, s);
             next = march_step(orbit, s, h);
+#endif
             ++steps;
             fate = ray_fate(orbit, next);
 #if ORDERS > 0

@@ -9,6 +9,7 @@ marches_in = "mino"
 step_control = "mino"
 space_time = "kerr"
 spins = true
+second_order = true
 exact = true
 ---*/
 // w'' = c₂w + c₃w² + c₄w³,  n'' = −(K + 2a²n_z²)n + a²n_z ẑ,  twist' = −a w (2 − aλw)/((1 − w r₊)(1 − w r₋)).
@@ -67,8 +68,28 @@ void ray_twist(Orbit orbit, State a, float h, inout State b) {
     b.twist = a.twist + h / 6.0 * (a.twist_rate + 4.0 * twist_rate_at(orbit, w_half) + b.twist_rate);
 }
 
-float ray_step_scale(Orbit orbit) {
+State state_kick(State s, float h, State k) {
+    return State(s.w, s.w_rate + h * k.w_rate, s.n, s.n_rate + h * k.n_rate, s.twist, s.twist_rate);
+}
+
+State state_drift(State s, float h) {
+    return State(s.w + h * s.w_rate, s.w_rate, s.n + h * s.n_rate, s.n_rate, s.twist, s.twist_rate);
+}
+
+float state_difference(Orbit orbit, State a, State b) {
+    return abs(a.w - b.w) / orbit.scale + abs(a.w_rate - b.w_rate) + length(a.n - b.n) + length(a.n_rate - b.n_rate) * orbit.scale;
+}
+
+float ray_plain_step(Orbit orbit, State s) {
+    return plan_step_angle * orbit.scale;
+}
+
+float ray_longest_step(Orbit orbit, State s) {
     return orbit.scale;
+}
+
+float ray_radius(State s) {
+    return 0.5 / max(s.w, 1e-6);
 }
 
 // Inside hole_w_stop an inward ray has no turning point left; infinity is w = 0.
@@ -92,6 +113,10 @@ float ray_height(State s) {
 
 float ray_height_rate(State s) {
     return s.n_rate.z;
+}
+
+float ray_elevation(State s) {
+    return s.n.z;
 }
 
 vec2 ray_plane_point(State s) {

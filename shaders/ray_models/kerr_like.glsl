@@ -9,6 +9,7 @@ marches_in = "cartesian"
 step_control = "radius"
 space_time = "schwarzschild"
 spins = true
+second_order = true
 exact = false
 
 [parameters.drag]
@@ -22,6 +23,14 @@ physical = 1.0
 // The twist turns place and velocity alike, so that L_z stays what it was and the twist is a quadrature along the orbit.
 float ray_twist_strength() {
     return 0.5 * rays_kerr_like_drag * hole_spin;
+}
+
+float ray_newtonian_pull() {
+    return 0.0;
+}
+
+float ray_drag() {
+    return 0.0;
 }
 
 #include "common/cartesian.glsl"

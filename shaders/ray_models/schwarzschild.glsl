@@ -9,10 +9,19 @@ marches_in = "cartesian"
 step_control = "radius"
 space_time = "schwarzschild"
 spins = false
+second_order = true
 exact = true
 ---*/
 
 float ray_twist_strength() {
+    return 0.0;
+}
+
+float ray_newtonian_pull() {
+    return 0.0;
+}
+
+float ray_drag() {
     return 0.0;
 }
 

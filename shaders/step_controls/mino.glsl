@@ -8,5 +8,5 @@ fits = ["mino"]
 ---*/
 
 float step_size(Orbit orbit, State s) {
-    return plan_step_angle * ray_step_scale(orbit);
+    return ray_plain_step(orbit, s);
 }

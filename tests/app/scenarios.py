@@ -11,6 +11,8 @@ from typing import Callable
 
 import numpy as np
 from imgui_bundle import imgui
+from imgui_bundle.glfw_utils import glfw_window_hello_imgui
+import glfw
 from PIL import Image
 
 from blackhole_gl import presets
@@ -271,6 +273,20 @@ def no_picture_of_what_failed(hands: Hands) -> None:
     assert not hands.state.picture_wanted
     assert len(list((hands.folder.parent / PICTURES).glob("*.png"))) == before, "the picture kept is not of this scene"
     hands.window.picture.renderer.fail = None
+
+
+def nothing_is_drawn_while_minimised(hands: Hands) -> None:
+    window = glfw_window_hello_imgui()
+    calls = hands.window.picture.renderer.calls
+    hands.context.yield_(5)
+    glfw.iconify_window(window)
+    hands.context.yield_(3)
+    drawn = len(calls)
+    hands.context.yield_(10)
+    assert len(calls) == drawn
+    glfw.restore_window(window)
+    hands.context.yield_(10)
+    assert len(calls) > drawn
 
 
 def full_screen_and_back(hands: Hands) -> None:

@@ -1,0 +1,31 @@
+/*---
+label = "Post-Newtonian with drag"
+summary = "Wrong, kept as published: the post-Newtonian force and −(6M/r³) v × J beside it, in place of Kerr; the horizon has Kerr's radius."
+source = "S4"
+slot = "ray_model"
+rank = 9
+kind = "differential"
+marches_in = "cartesian"
+step_control = "radius"
+space_time = "flat"
+spins = true
+second_order = false  # the force depends on the velocity
+march_bound = 8.0     # the drag is finished to first order only, so further out
+exact = false
+---*/
+// J = (0, 0, a M) with M = 1/2 and a = a*/2: k = 6 M a M = 3a*/4. A backward ray's v turns the sign of a photon's, and with it the
+// flattened side of the shadow comes out where the disk approaches, as it should. h is that of the start: the drag changes |x × v|.
+
+float ray_twist_strength() {
+    return 0.0;
+}
+
+float ray_newtonian_pull() {
+    return 0.5;
+}
+
+float ray_drag() {
+    return 0.75 * hole_gravity_strength * hole_spin;
+}
+
+#include "common/cartesian.glsl"

@@ -1,0 +1,103 @@
+/*---
+label = "Schwarzschild, Binet"
+summary = "Exact null orbits of a hole without spin, one unknown in the orbit's plane: u'' + u = (3/2) u². Radial rays are no special case."
+source = "S0; Binet's equation"
+slot = "ray_model"
+rank = 5
+kind = "differential"
+marches_in = "mino"
+step_control = "curvature"
+space_time = "schwarzschild"
+spins = false
+second_order = true
+exact = true
+---*/
+// Units M = 1. With φ = √K τ the equation reads w'' = K w (3 w − 1): the same steps in φ, and still a sensible equation where b = √K is 0
+// and φ stands still. The place is n cos φ + aside sin φ, so that disk crossings lie at known φ.
+
+struct Orbit {
+    float k;      // b² in M²
+    float scale;  // 1/√(K + 1), the parameter of about one radian
+};
+
+struct State {
+    float w;
+    float w_rate;
+    float angle;
+    float b;     // constant, as are n and aside: the angle's rate
+    vec3 n;      // where the march began, and at right angles to it
+    vec3 aside;
+};
+
+Orbit ray_orbit(RayStart start) {
+    float k = dot(start.n_rate, start.n_rate);
+    return Orbit(k, inversesqrt(k + 1.0));
+}
+
+State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
+    float b = sqrt(orbit.k);
+    return State(start.w, start.w_rate, 0.0, b, start.n, b > 0.0 ? start.n_rate / b : vec3(0.0));
+}
+
+State ray_rhs(Orbit orbit, State s) {
+    return State(s.w_rate, orbit.k * s.w * (3.0 * s.w - 1.0), s.b, s.b, s.n, s.aside);
+}
+
+State state_step(State s, float h, State k) {
+    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.angle + h * k.angle, s.b, s.n, s.aside);
+}
+
+State state_kick(State s, float h, State k) {
+    return State(s.w, s.w_rate + h * k.w_rate, s.angle + h * k.angle, s.b, s.n, s.aside);
+}
+
+State state_drift(State s, float h) {
+    return State(s.w + h * s.w_rate, s.w_rate, s.angle, s.b, s.n, s.aside);
+}
+
+float state_difference(Orbit orbit, State a, State b) {
+    return abs(a.w - b.w) / orbit.scale + abs(a.w_rate - b.w_rate) + abs(a.angle - b.angle);
+}
+
+float ray_plain_step(Orbit orbit, State s) {
+    return plan_step_angle * orbit.scale;
+}
+
+float ray_longest_step(Orbit orbit, State s) {
+    return orbit.scale;
+}
+
+float ray_radius(State s) {
+    return 0.5 / max(s.w, 1e-6);
+}
+
+int ray_fate(Orbit orbit, State s) {
+    if (s.w <= 0.0) return ESCAPED;
+    return s.w > hole_w_stop && s.w_rate > 0.0 ? CAPTURED : UNRESOLVED;
+}
+
+float ray_end(Orbit orbit, State a, State b, float h) {
+    return hermite_root(a.w, h * a.w_rate, b.w, h * b.w_rate);
+}
+
+void ray_finish(Orbit orbit, State s, inout Hits hits) {
+    vec2 turn = cos_sin(s.angle - s.b * s.w / s.w_rate);  // less what the root left over
+    hits.direction = normalize(turn.x * s.n + turn.y * s.aside);
+}
+
+float ray_height(State s) {
+    return dot(cos_sin(s.angle), vec2(s.n.z, s.aside.z));
+}
+
+float ray_height_rate(State s) {
+    return s.b * dot(cos_sin(s.angle), vec2(s.aside.z, -s.n.z));
+}
+
+float ray_elevation(State s) {
+    return ray_height(s);
+}
+
+vec2 ray_plane_point(State s) {
+    vec2 turn = cos_sin(s.angle);
+    return normalize(turn.x * s.n.xy + turn.y * s.aside.xy) * (0.5 / s.w);
+}
