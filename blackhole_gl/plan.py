@@ -14,7 +14,8 @@ from .scene import Scene, SceneError
 SPARE_TURNS = 3.0
 
 # Beyond this radius (r_s, times the gravity strength) an outward ray is finished in closed form; see common/central_orbit.glsl.
-MARCH_BOUND = 15.0
+# Models whose closed form is a first-order one state a larger march_bound in their header.
+MARCH_BOUND = 6.0
 
 # The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge.
 INNERMOST_CROSSING = 1.02
@@ -102,7 +103,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
 
 def march_bound(scene: Scene) -> float:
     """Radius in r_s beyond which outward rays are finished in closed form."""
-    return MARCH_BOUND * max(1.0, scene.hole.gravity_strength) * observer.ray_model(scene).traits.get("march_bound", 1.0)
+    return observer.ray_model(scene).traits.get("march_bound", MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
 
 
 def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
@@ -120,8 +121,10 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere
     if control.key == "fixed":
-        return (far + 2.0 * bound + SPARE_TURNS * turn) / scene.rays.step_length
-    legs = math.log(max(far / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere)
+        aside = 1.7 * far  # the longest way of a ray that passes too far out to be taken in closed form
+        return max(aside, min(far, bound) + 1.7 * bound + SPARE_TURNS * turn) / scene.rays.step_length
+    # 1.0 for what an artistic horizon lets run on inside r = G
+    legs = math.log(max(min(far, bound) / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere) + 1.0
     return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / (scene.rays.step_length * shortest)
 
 

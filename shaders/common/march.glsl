@@ -18,10 +18,22 @@
 //     float ray_plain_step(Orbit, State), ray_longest_step(Orbit, State)   the step before any control; the longest in which nothing is missed
 //     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
+// RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
 //
 // A step control gives step_size(Orbit, State), or with STEP_ADAPTS
 //     State adapted_step(Orbit, State s, inout float trial, out float h)   one step of length h ≤ trial; rejected: s itself, with h = 0
 // An integrator gives integrator_step(Orbit, State, float h), one with an error estimate also integrator_pair and INTEGRATOR_ERROR_POWER.
+
+State completed(Orbit orbit, State s, float h, State next) {
+#ifdef RAY_QUADRATURE
+    RAY_QUADRATURE(orbit, s, h, next);
+#endif
+    return next;
+}
+
+State march_step(Orbit orbit, State s, float h) {
+    return completed(orbit, s, h, integrator_step(orbit, s, h));
+}
 
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
 // so that the crossing is as accurate as the march and not as the polynomial.
@@ -29,7 +41,7 @@
 void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits hits) {
     float t = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
     if (t >= end) return;
-    State there = integrator_step(orbit, a, h * t);
+    State there = march_step(orbit, a, h * t);
     float slip = clamp(-ray_height(there) / ray_height_rate(there), -0.1 * h, 0.1 * h);
     there = state_step(there, slip, ray_rhs(orbit, there));
     vec2 point = ray_plane_point(there);
@@ -63,9 +75,10 @@ Hits trace_ray(RayStart start) {
             s = next;
 #ifdef STEP_ADAPTS
             next = adapted_step(orbit, s, trial, h);
+            next = completed(orbit, s, h, next);
 #else
             h = step_size(orbit, s);
-            next = integrator_step(orbit, s, h);
+            next = march_step(orbit, s, h);
 #endif
             ++steps;
             fate = ray_fate(orbit, next);
@@ -84,6 +97,6 @@ Hits trace_ray(RayStart start) {
     }
     hits.steps = steps;
     hits.fate = fate;
-    if (fate == ESCAPED) ray_finish(orbit, integrator_step(orbit, s, h * end), hits);
+    if (fate == ESCAPED) ray_finish(orbit, march_step(orbit, s, h * end), hits);
     return hits;
 }

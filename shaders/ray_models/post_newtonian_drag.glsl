@@ -10,7 +10,7 @@ step_control = "radius"
 space_time = "flat"
 spins = true
 second_order = false  # the force depends on the velocity
-march_bound = 8.0     # the drag is finished to first order only, so further out
+march_bound = 120.0   # r_s: the drag is finished to first order only, so further out
 exact = false
 ---*/
 // J = (0, 0, a M) with M = 1/2 and a = a*/2: k = 6 M a M = 3a*/4. A backward ray's v turns the sign of a photon's, and with it the
