@@ -1,0 +1,203 @@
+/*---
+label = "Kerr, Kerr–Schild"
+summary = "Exact null geodesics of a spinning hole by Hamilton's equations in Cartesian Kerr–Schild coordinates: the second, independent form of Kerr."
+source = "Kerr & Schild 1965; docs/physics.md"
+slot = "ray_model"
+rank = 6
+kind = "differential"
+marches_in = "mino"
+step_control = "mino"
+space_time = "kerr"
+spins = true
+second_order = false  # not separated: the momenta's rates depend on the momenta
+exact = true
+---*/
+// H = ½(p² − 1 − f κ²), κ = 1 + l·p, with the f and l of SPEC's ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
+// time-reversed space-time, Kerr with −a, that moves along the look direction.
+// The unknowns are not (x, p) but n = x/R, w = 1/R, L = x × p and p_n = n·p, and the parameter runs as dλ/R²: every factor R cancels,
+// infinity is w = 0 and is reached, and b keeps all its digits however far the camera is. With ρ = w r, q = a w: r² + a² = (ρ² + q²)/w².
+//
+// Ingoing coordinates serve light that goes in: near the horizon light that comes out has |p| ~ 1/Δ in them. A ray carries the sign of its
+// chart (+1 ingoing, −1 outgoing, which is its time reversal) and changes over where it turns.
+
+#define RAY_RECHARTS
+
+struct Orbit {
+    float scale;  // 1/√(L² + 1) at the camera
+};
+
+struct State {
+    vec3 n;
+    float w;
+    vec3 l;
+    float p_n;
+    float chart;
+};
+
+// r w: from r⁴ − (R² − a²) r² − a² z² = 0.
+float kerr_rho(float q2, float nz2) {
+    float gap = 1.0 - q2;
+    return sqrt(0.5 * (gap + sqrt(gap * gap + 4.0 * q2 * nz2)));
+}
+
+float kerr_w(State s) {
+    float q = hole_spin * s.w;
+    return s.w / kerr_rho(q * q, s.n.z * s.n.z);
+}
+
+// ∫ dr/Δ from r = 1/w to infinity = artanh(σ w/(1 − w))/σ with σ = √(1 − a²); halved thrice, then the series, good to 1e-8.
+float azimuth_lag(float w) {
+    float sigma = 0.5 * (hole_w_factors.x - hole_w_factors.y);
+    float x = sigma * w / (1.0 - w);
+    for (int i = 0; i < 3; ++i) x = x / (1.0 + sqrt((1.0 - x) * (1.0 + x)));
+    float x2 = x * x;
+    return 8.0 * x * (1.0 + x2 * (1.0 / 3.0 + x2 * (1.0 / 5.0 + x2 * (1.0 / 7.0 + x2 * (1.0 / 9.0 + x2 / 11.0))))) / sigma;
+}
+
+// arctan(y), |y| ≤ 1: halved twice, then the series, good to 1e-8.
+float small_arctan(float y) {
+    for (int i = 0; i < 2; ++i) y = y / (1.0 + sqrt(1.0 + y * y));
+    float y2 = y * y;
+    return 4.0 * y * (1.0 + y2 * (-1.0 / 3.0 + y2 * (1.0 / 5.0 + y2 * (-1.0 / 7.0 + y2 / 9.0))));
+}
+
+Orbit ray_orbit(RayStart start) {
+    return Orbit(inversesqrt(dot(start.n_rate, start.n_rate) + 1.0));
+}
+
+State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
+    float chart = start.w_rate >= 0.0 ? 1.0 : -1.0;
+    float a = -chart * hole_spin, w = start.w, aw = a * w;
+    float cosine = start.n.z, sine = camera_n.w;
+    float l_over_sine = dot(start.n_rate, camera_e_phi.xyz), p_theta = dot(start.n_rate, camera_e_theta.xyz);
+    // p_r of the chart, ∓(P − √R)/Δ ± 1, with the difference formed as K/(P + √R).
+    float k = dot(start.n_rate, start.n_rate) + hole_spin * (hole_spin * sine * sine - 2.0 * start.lambda);
+    float carter_p = 1.0 + w * w * hole_spin * (hole_spin - start.lambda);
+    float p_r = chart * (k * w * w / (carter_p + abs(start.w_rate)) - 1.0);
+    float across = p_theta - aw * l_over_sine * cosine;
+    float sigma = 1.0 + aw * aw * cosine * cosine;
+    float p_u = (sine * p_r + w * cosine * across) / sigma;
+    float p_z = (cosine * (1.0 + aw * aw) * p_r - w * sine * across) / sigma;
+    float p_e = w * (l_over_sine + a * p_u);
+    float stretch = sqrt(1.0 + aw * aw * sine * sine);
+
+    vec2 lag = cos_sin(hole_spin * chart * azimuth_lag(w));
+    vec2 e = rotate(camera_e_phi.xy, lag), u = vec2(e.y, -e.x);
+    State s;
+    s.n = vec3(sine * (u + aw * e), cosine) / stretch;
+    s.w = w / stretch;
+    s.l.xy = (a * (sine * p_z - cosine * p_u) - cosine * l_over_sine) * u + ((across - aw * a * sine * cosine * p_r) / sigma) * e;
+    s.l.z = sine * l_over_sine;
+    s.p_n = (sine * (p_u + aw * p_e) + cosine * p_z) / stretch;
+    s.chart = chart;
+    return s;
+}
+
+State ray_rates(State s) {
+    float a = -s.chart * hole_spin;
+    vec3 l = s.chart * s.l;
+    float p_n = s.chart * s.p_n;
+    float q = a * s.w, q2 = q * q, nz2 = s.n.z * s.n.z;
+    float root = sqrt((1.0 - q2) * (1.0 - q2) + 4.0 * q2 * nz2);
+    float rho2 = 0.5 * (1.0 - q2 + root), rho = sqrt(rho2);
+    float inv_d = 1.0 / (rho2 * root);  // 1/(ρ⁴ + q² n_z²)
+    float c = 1.0 / (rho2 + q2);
+    float lean = q2 * s.n.z / rho;
+    vec3 across = cross(l, s.n);
+    float p_z = p_n * s.n.z + s.w * across.z;
+    float along = rho * p_n - q * s.w * l.z;
+    float kappa = 1.0 + c * (along + lean * p_z);
+    float fk = (2.0 * rho / root) * kappa;
+    float half_kappa2 = 0.5 * kappa * kappa;
+
+    // f_r, f_z: ∇f = w² (f_r ∇r + f_z ẑ); l_r: the part of ∇(l·p) along ∇r; grad: n·∇r.
+    float f_r = 2.0 * rho2 * (3.0 * q2 * nz2 - rho2 * rho2) * inv_d * inv_d;
+    float f_z = -4.0 * rho * rho2 * inv_d * inv_d;  // less a factor q² n_z
+    float l_r = c * (p_n - 2.0 * rho * c * along - (3.0 + q2 / rho2) * c * q2 * s.n.z * p_z);
+    float grad = rho * (rho2 + q2 * nz2) * inv_d;
+
+    vec3 aside = vec3(s.n.y, -s.n.x, 0.0);                       // n × ẑ
+    vec3 to_axis = vec3(-s.n.z * s.n.xy, dot(s.n.xy, s.n.xy));   // ẑ across n; not 1 − n_z²: errors of |n| = 1 would grow
+    State rate;
+    rate.n = s.chart * (across - fk * c * (q * aside + lean * to_axis));
+    rate.w = s.chart * (s.w * fk * c * (rho + lean * s.n.z) - p_n);
+    float torque = a * q * (s.n.z * (fk * l_r * rho * inv_d + half_kappa2 * (f_r * rho * inv_d + f_z)) + 2.0 * fk * c * p_z / rho);
+    rate.l = torque * aside + fk * c * q * vec3(-l.y - (q / rho) * l.x, l.x - (q / rho) * l.y, 0.0);
+    rate.p_n = s.w * s.chart * dot(across, rate.n) + half_kappa2 * (f_r * grad + f_z * q2 * nz2) + fk * (l_r * grad + c * (along + lean * p_z));
+    rate.chart = 0.0;
+    return rate;
+}
+
+State ray_rhs(Orbit orbit, State s) {
+    return ray_rates(s);
+}
+
+State state_step(State s, float h, State k) {
+    return State(s.n + h * k.n, s.w + h * k.w, s.l + h * k.l, s.p_n + h * k.p_n, s.chart);
+}
+
+// The charts differ by a turn about the axis and a shift of time, both functions of r: p changes by the turn and by a multiple of ∇r.
+State ray_recharted(State before, State s) {
+    float w = kerr_w(s);
+    if (s.chart * (kerr_w(before) - w) <= 0.0 || s.w <= 0.0 || w * hole_w_factors.x >= 1.0) return s;
+    float a = -s.chart * hole_spin, q2 = a * a * s.w * s.w;
+    float rho = s.w / w, inv_d = 1.0 / (rho * rho * rho * rho + q2 * s.n.z * s.n.z);
+    float delta = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
+    float kick = w * (4.0 * s.chart - 2.0 * a * s.l.z * w) / delta + 2.0 * a * s.l.z * w * w / (1.0 + a * a * w * w);
+    s.p_n -= kick * rho * (rho * rho + q2 * s.n.z * s.n.z) * inv_d;
+    s.l.xy += (kick * a * a * s.w * s.n.z * rho * inv_d) * vec2(-s.n.y, s.n.x);
+    vec2 turn = cos_sin(-2.0 * (hole_spin * s.chart * azimuth_lag(w) + small_arctan(a * w)));
+    s.n.xy = rotate(s.n.xy, turn);
+    s.l.xy = rotate(s.l.xy, turn);
+    s.chart = -s.chart;
+    return s;
+}
+
+float state_difference(Orbit orbit, State a, State b) {
+    return length(a.n - b.n) + abs(a.w - b.w) / orbit.scale + length(a.l - b.l) * orbit.scale + abs(a.p_n - b.p_n);
+}
+
+float ray_plain_step(Orbit orbit, State s) {
+    return plan_step_angle * orbit.scale;
+}
+
+float ray_longest_step(Orbit orbit, State s) {
+    return orbit.scale;
+}
+
+float ray_radius(State s) {
+    return 0.5 / max(kerr_w(s), 1e-6);
+}
+
+// The horizon is no special place here; behind it nothing comes back.
+int ray_fate(Orbit orbit, State s) {
+    if (s.w <= 0.0) return ESCAPED;
+    return s.chart > 0.0 && kerr_w(s) * hole_w_factors.x > 1.0 ? CAPTURED : UNRESOLVED;
+}
+
+float ray_end(Orbit orbit, State a, State b, float h) {
+    return hermite_root(a.w, h * ray_rates(a).w, b.w, h * ray_rates(b).w);
+}
+
+void ray_finish(Orbit orbit, State s, inout Hits hits) {
+    State rate = ray_rates(s);
+    hits.direction = normalize(s.n - (s.w / rate.w) * rate.n);  // less what the root left over; at infinity the azimuths agree
+}
+
+float ray_height(State s) {
+    return s.n.z;
+}
+
+float ray_height_rate(State s) {
+    return ray_rates(s).n.z;
+}
+
+float ray_elevation(State s) {
+    return s.n.z;
+}
+
+vec2 ray_plane_point(State s) {
+    float w = kerr_w(s);
+    float turn = s.chart * (small_arctan(hole_spin * w) - hole_spin * azimuth_lag(w));
+    return rotate(normalize(s.n.xy), cos_sin(turn)) * (0.5 / w);
+}
