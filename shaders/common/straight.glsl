@@ -1,0 +1,25 @@
+// Straight rays and a black ball in flat space.
+
+// Hits of the straight ray that starts as `start`, with a ball of `radius` in r_s.
+// The ray is b + t v with b at right angles to the unit vector v; written so that a camera at infinity needs no case of its own.
+Hits straight_hits(RayStart start, float radius) {
+    Hits hits = no_hits(start.lambda);
+    hits.steps = 1;
+    float bend = length(start.n_rate);                          // impact parameter in M
+    vec3 across = bend > 0.0 ? start.n_rate / bend : vec3(0.0);
+    float cosine = start.w_rate, sine = start.w * bend;
+    vec3 v = sine * across - cosine * start.n;
+    vec3 b = 0.5 * bend * (sine * start.n + cosine * across);
+    float t_start = camera_w > 0.0 ? -0.5 * cosine / start.w : -1e30;
+    float inside = (radius - 0.5 * bend) * (radius + 0.5 * bend);
+    float t_end = inside > 0.0 && cosine > 0.0 ? -sqrt(inside) : 1e30;
+    hits.fate = t_end < 1e30 ? CAPTURED : ESCAPED;
+    if (hits.fate == ESCAPED) hits.direction = normalize(v);
+#if ORDERS > 0
+    float t = -b.z / v.z;
+    vec2 point = b.xy + t * v.xy;
+    bool crosses = start.n.z != 0.0 && v.z != 0.0 && t > t_start && t < t_end;
+    if (crosses && dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point);
+#endif
+    return hits;
+}
