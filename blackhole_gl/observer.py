@@ -79,16 +79,22 @@ def observe(scene: Scene) -> Observer:
         return Observer("infinity", spin, 0.0, n, e_theta, e_phi, np.diag([1.0, -1.0, 1.0, 1.0]))
     r = 2.0 * camera.distance  # M = 1 from here on
     if space_time == "flat":
+        _outside(camera.distance, relativity.horizon_radius(effective_spin(scene)), effective_spin(scene))
         return Observer("static", 0.0, 1.0 / r, n, e_theta, e_phi, np.diag([1.0, -1.0, r, r]))
     kind, matrix = _kerr_map(r, cos_theta, sin_theta, spin, camera.observer)
     return Observer(kind, spin, 1.0 / r, n, e_theta, e_phi, matrix)
 
 
+def _outside(distance: float, horizon: float, a: float) -> None:
+    """Raises ValueError where a camera at `distance` is not outside the horizon, both in r_s."""
+    if distance <= horizon:
+        raise ValueError(f"camera.distance: got {distance:g} r_s; at spin {a:g} the horizon is at {horizon:.6g} r_s and the camera must be outside it")
+
+
 def _kerr_map(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, np.ndarray]:
     """The observer map from the ZAMO's tetrad (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted along e_φ for the static observer."""
     r_plus = 1.0 + math.sqrt((1.0 - a) * (1.0 + a))
-    if r <= r_plus:
-        raise ValueError(f"camera.distance: got {r / 2:g} r_s; at spin {a:g} the horizon is at {r_plus / 2:.6g} r_s and the camera must be outside it")
+    _outside(0.5 * r, 0.5 * r_plus, a)
     sigma = r * r + (a * cos_theta) ** 2
     delta = (r - r_plus) * (r - (2.0 - r_plus))
     big_a = (r * r + a * a) ** 2 - delta * (a * sin_theta) ** 2

@@ -47,7 +47,7 @@ class Hole:
 class Camera:
     """The observer and its picture."""
 
-    distance: float = number(20.0, 1.0001, 1e4, "r_s", "Boyer–Lindquist (areal) radius of the camera; inf is a far observer with parallel rays.", allow_infinity=True)
+    distance: float = number(20.0, 0.5001, 1e4, "r_s", "Boyer–Lindquist (areal) radius of the camera, above the horizon: 1 without spin, down to 0.5 with. inf is a far observer with parallel rays.", allow_infinity=True)
     inclination_deg: float = number(80.0, 0.0, 180.0, "°", "Angle from the spin axis: 0 above the north pole, 90 in the disk's plane.")
     azimuth_deg: float = number(0.0, -360.0, 360.0, "°", "Azimuth of the camera about the spin axis, counter-clockwise seen from +z.")
     fov_deg: float = number(45.0, 1.0, 150.0, "°", "Vertical angle of view.")

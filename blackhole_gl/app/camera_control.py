@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Mapping
 
+from .. import observer, relativity
 from ..fields import Field
 from ..scene import Scene, fields
 
@@ -17,6 +18,7 @@ SMOOTHING_TIME = 0.09  # τ in seconds: fast enough to feel attached to the hand
 _INSTANT_S = 1e-6  # no time at all: a rate over less would overflow
 _REST_DEG = 2e-3  # nearer than this to the target the camera is at rest, and the window may idle
 _REST_REACH = 2e-5
+_NEAREST = 1e-4  # r_s above the horizon
 
 
 @dataclass(frozen=True)
@@ -80,15 +82,15 @@ def _is_near(a: Pose, b: Pose) -> bool:
 
 
 def horizon_radius(scene: Scene) -> float:
-    """The outer horizon r_+ in r_s, which zooming approaches and never passes."""
-    spin = abs(scene.hole.spin)
-    return 0.5 * (1.0 + math.sqrt((1.0 - spin) * (1.0 + spin)))
+    """The outer horizon r_+ in r_s of what the ray model shows, which zooming approaches and never passes."""
+    return float(relativity.horizon_radius(observer.horizon_spin(scene)))
 
 
 def pose_of(scene: Scene) -> Pose:
     """The pose of `scene`'s camera."""
     camera = scene.camera
-    return Pose(camera.azimuth_deg, camera.inclination_deg, math.log(_extent(scene) - _floor(scene)))
+    # A camera that a smaller spin has left inside the horizon counts as just outside.
+    return Pose(camera.azimuth_deg, camera.inclination_deg, math.log(max(_extent(scene) - _floor(scene), _NEAREST)))
 
 
 def values_of(pose: Pose, scene: Scene) -> Mapping[str, float]:
@@ -112,7 +114,8 @@ def values_of(pose: Pose, scene: Scene) -> Mapping[str, float]:
 def limited(pose: Pose, scene: Scene) -> Pose:
     """`pose` with its reach inside the range of the scene's field."""
     field, floor = _extent_field(scene), _floor(scene)
-    return replace(pose, reach=min(max(pose.reach, math.log(field.low - floor)), math.log(field.high - floor)))
+    nearest = max(field.low - floor, _NEAREST)
+    return replace(pose, reach=min(max(pose.reach, math.log(nearest)), math.log(field.high - floor)))
 
 
 def _extent_field(scene: Scene) -> Field:
