@@ -79,10 +79,14 @@ float ray_radius(State s) {
     return length(s.x);
 }
 
-// In proportion to the radius; along its way no longer than Δt₀ r. Rays from afar have |v| < 3 down to the horizon. Faster ones start from a
-// camera just above it, or fall further, which only the artistic horizon sizes let them.
+// Factor by which a step of σ is shortened, so that its length stays what was asked. Rays from afar have |v| < 3 down to the horizon and keep
+// theirs. Faster ones start from a camera just above it, or fall further, which only the artistic horizon sizes let them.
+float ray_slowdown(State s) {
+    return 3.0 / max(3.0, length(s.v));
+}
+
 float ray_plain_step(Orbit orbit, State s) {
-    return plan_step_length * ray_radius(s) / max(3.0, length(s.v));
+    return plan_step_length * ray_radius(s) / 3.0 * ray_slowdown(s);
 }
 
 float ray_longest_step(Orbit orbit, State s) {

@@ -8,5 +8,5 @@ fits = ["cartesian"]
 ---*/
 
 float step_size(Orbit orbit, State s) {
-    return plan_step_length;
+    return plan_step_length * ray_slowdown(s);
 }
