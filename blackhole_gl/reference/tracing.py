@@ -16,7 +16,7 @@ from .schwarzschild import N_Z, W, SchwarzschildSystem
 
 MODELS = ("flat", "schwarzschild", "kerr_like", "kerr")
 INNERMOST_CROSSING = 1.02  # in units of the horizon: below, a crossing is left empty
-_MAX_STEPS = 1000
+_MAX_STEPS = 4000  # a ray 1e-8 from the critical curve of a* = 0.9999 winds through 1,600
 _FINEST_TOLERANCE = 1e-13
 _BATCH = 512  # rays per batch: the working set of a step stays in the cache
 
