@@ -1,0 +1,177 @@
+"""Error and cost of one method in one scene, at each of its step settings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields as record_fields
+
+import numpy as np
+
+from .. import listed_rays, plan, timing
+from ..render.frame import Renderer
+from ..scene import Scene
+from .errors import Errors, compare
+from .methods import Method
+from .scenes import NEAR_CRITICAL, ChartScene
+
+# A frame that takes longer than this (seconds) is timed in one round only: its ratio is steady enough, and the chart has an end.
+_LONG_FRAME = 0.2
+
+
+@dataclass(frozen=True)
+class Timings:
+    """How cost is measured: size of the frames in pixels, and rounds."""
+
+    size: tuple[int, int]
+    rounds: int
+
+
+FULL = Timings((480, 270), 2)
+QUICK = Timings((320, 180), 2)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table.
+
+    Attributes:
+        scene … step_tolerance: what was measured; step settings that the method does not have are NaN.
+        direction_median … lost_crossings: as `errors.Errors`, for rays off the critical curve.
+        near_…: the same for rays within 1e-3 of it.
+        own_direction_99: error against the method's own float64 twin: what is left when the model's wrongness is taken away.
+        unresolved: rays without a fate, of all.
+        evaluations: of the right-hand side, mean over the rays.
+        cost_flat_ratio: shortest frame time over the shortest of the flat frame, taken in turn.
+        cost_low, cost_high: extremes of that ratio in the single rounds.
+        milliseconds: of the frame, on the machine named in the table's head.
+    """
+
+    scene: str
+    spin: float
+    distance: float
+    inclination_deg: float
+    fov_deg: float
+    model: str
+    integrator: str
+    step_control: str
+    step_length: float
+    step_angle: float
+    direction_median: float
+    direction_99: float
+    direction_worst: float
+    crossing_r_99: float
+    g_99: float
+    wrong_fates: float
+    evaluations: float
+    cost_flat_ratio: float
+    step_tolerance: float
+    variant: str
+    lost_crossings: float
+    near_direction_median: float
+    near_direction_worst: float
+    near_wrong_fates: float
+    own_direction_median: float
+    own_direction_99: float
+    unresolved: int
+    cost_low: float
+    cost_high: float
+    milliseconds: float
+
+    @property
+    def setting(self) -> float:
+        """The step setting that varies along the method's curve; NaN for closed models."""
+        for value in (self.step_tolerance, self.step_angle, self.step_length):
+            if not math.isnan(value):
+                return value
+        return math.nan
+
+    @property
+    def method(self) -> str:
+        """The method's name, without the setting."""
+        return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant) if part)
+
+
+COLUMNS = tuple(item.name for item in record_fields(Row))
+CONTRACT = COLUMNS[: COLUMNS.index("variant")]
+"""The columns that plan.py reads."""
+
+
+def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, settings: tuple[float, ...], timings: Timings, twin: listed_rays.TracedRays | None) -> list[Row]:
+    """A row for each of `settings`.
+
+    Args:
+        twin: the rays traced by the method's own float64 twin, where that is not the truth itself; None where there is none.
+    """
+    scenes = [method.applied(chart_scene.scene, setting) for setting in settings]
+    costs = _costs(renderer, chart_scene.scene, scenes, timings)
+    return [_row(renderer, chart_scene, method, *entry, twin) for entry in zip(settings, scenes, costs)]
+
+
+def _row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float, scene: Scene, cost: timing.Timing, twin: listed_rays.TracedRays | None) -> Row:
+    found = listed_rays.trace_by_shader(renderer, scene, chart_scene.rays)
+    near = chart_scene.epsilon < NEAR_CRITICAL
+    errors, close = compare(found, chart_scene.truth, ~near), compare(found, chart_scene.truth, near)
+    own = errors if twin is None else compare(found, twin, ~near)
+    camera = scene.camera
+    step = {knob: setting if method.knob == knob else math.nan for knob in ("length", "angle", "tolerance")}
+    return Row(
+        scene=chart_scene.name,
+        spin=scene.hole.spin,
+        distance=camera.distance,
+        inclination_deg=camera.inclination_deg,
+        fov_deg=camera.fov_deg,
+        model=method.model,
+        integrator=method.integrator,
+        step_control=method.step_control,
+        step_length=step["length"],
+        step_angle=step["angle"],
+        direction_median=errors.direction_median,
+        direction_99=errors.direction_99,
+        direction_worst=errors.direction_worst,
+        crossing_r_99=errors.crossing_r_99,
+        g_99=errors.g_99,
+        wrong_fates=errors.wrong_fates,
+        evaluations=float(np.mean(found.evaluations)),
+        cost_flat_ratio=cost.ratio,
+        step_tolerance=step["tolerance"],
+        variant=method.variant,
+        lost_crossings=errors.lost_crossings,
+        near_direction_median=close.direction_median,
+        near_direction_worst=close.direction_worst,
+        near_wrong_fates=close.wrong_fates,
+        own_direction_median=own.direction_median,
+        own_direction_99=own.direction_99,
+        unresolved=int(np.sum(found.fate == 0)),
+        cost_low=cost.spread[0],
+        cost_high=cost.spread[1],
+        milliseconds=cost.milliseconds,
+    )
+
+
+def _costs(renderer: Renderer, base: Scene, scenes: list[Scene], timings: Timings) -> list[timing.Timing]:
+    """Times of `scenes`, each taken right after the flat frame of `base`; long ones in one round only.
+
+    The shortest time of each counts: what else a machine does can only lengthen a frame.
+    """
+    flat = timing.flat_scene(base)
+    tasks = [(scene, plan.plan(scene)) for scene in scenes]
+    flat_task = (flat, plan.plan(flat))
+    taken: list[list[float]] = [[] for _ in tasks]
+    yard: list[list[float]] = [[] for _ in tasks]
+    for round_ in range(timings.rounds):
+        for index, task in enumerate(tasks):
+            if round_ and min(taken[index]) > _LONG_FRAME:
+                continue
+            yard[index].append(min(_seconds(renderer, flat_task, timings.size) for _ in range(2)))
+            taken[index].append(_seconds(renderer, task, timings.size))
+    shortest_flat = min(min(times) for times in yard)
+    return [_timing(a, b, shortest_flat) for a, b in zip(taken, yard)]
+
+
+def _seconds(renderer: Renderer, task: tuple[Scene, plan.RayPlan], size: tuple[int, int]) -> float:
+    return renderer.time_trace(task[0], size, task[1])
+
+
+def _timing(seconds: list[float], flat: list[float], shortest_flat: float) -> timing.Timing:
+    ratios = [a / b for a, b in zip(seconds, flat)]
+    return timing.Timing(1e3 * min(seconds), min(seconds) / shortest_flat, (min(ratios), max(ratios)))
