@@ -1,12 +1,13 @@
 // From a pixel to what its ray starts with. The matrix comes from the host's float64 tetrad (blackhole_gl/observer.py).
 
-// A ray at the camera, traced backwards, E = 1. Units M = 1; rates are per Mino time.
+// A ray at the camera, traced backwards, |E| = 1. Units M = 1; rates are per Mino time.
 struct RayStart {
     float w;       // M/r
     float w_rate;
     vec3 n;        // unit vector from the hole to the camera
     vec3 n_rate;   // at right angles to n
     float lambda;  // L_z/E of the physical photon
+    float energy;  // +1; −1 for light that only the ergosphere holds
 };
 
 // Where the pixel at `place` (gl_FragCoord.xy) looks, in the observer's frame (r, θ, φ); (−1, −β, α) in M for a camera at infinity.
@@ -23,12 +24,13 @@ float pixel_energy_ratio(vec3 local) {
 
 RayStart ray_start(vec3 local) {
     vec4 start = observer_map * vec4(1.0, local);
-    vec3 rates = start.yzw / start.x;
+    vec3 rates = start.yzw / abs(start.x);
     RayStart ray;
     ray.w = camera_w;
     ray.w_rate = rates.x;
     ray.n = camera_n.xyz;
     ray.n_rate = rates.y * camera_e_theta.xyz + rates.z * camera_e_phi.xyz;
-    ray.lambda = -rates.z * camera_n.w;
+    ray.energy = start.x < 0.0 ? -1.0 : 1.0;
+    ray.lambda = -ray.energy * rates.z * camera_n.w;
     return ray;
 }

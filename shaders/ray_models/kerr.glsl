@@ -19,6 +19,7 @@ struct Orbit {
     vec3 c;        // c₂, c₃, c₄
     float k;       // K = η + λ²
     float a_lambda;
+    float drag;    // −a, or a for negative energy
     float scale;   // 1/√(K + 1), the Mino time of about one radian
 };
 
@@ -35,11 +36,11 @@ Orbit ray_orbit(RayStart start) {
     float a = hole_spin;
     float k = dot(start.n_rate, start.n_rate) - a * a * start.n.z * start.n.z;
     float eta = k - start.lambda * start.lambda;
-    return Orbit(vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta), k, a * start.lambda, inversesqrt(max(k, 0.0) + 1.0));
+    return Orbit(vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta), k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0));
 }
 
 float twist_rate_at(Orbit orbit, float w) {
-    return -hole_spin * w * (2.0 - orbit.a_lambda * w) / ((1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y));
+    return orbit.drag * w * (2.0 - orbit.a_lambda * w) / ((1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y));
 }
 
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {

@@ -12,7 +12,7 @@ spins = true
 second_order = false  # not separated: the momenta's rates depend on the momenta
 exact = true
 ---*/
-// H = ½(p² − 1 − f κ²), κ = 1 + l·p, with the f and l of SPEC's ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
+// H = ½(p² − 1 − f κ²), κ = E + l·p, with the f and l of SPEC's ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
 // time-reversed space-time, Kerr with −a, that moves along the look direction.
 // The unknowns are not (x, p) but n = x/R, w = 1/R, L = x × p and p_n = n·p, and the parameter runs as dλ/R²: every factor R cancels,
 // infinity is w = 0 and is reached, and b keeps all its digits however far the camera is. With ρ = w r, q = a w: r² + a² = (ρ² + q²)/w².
@@ -32,6 +32,7 @@ struct State {
     vec3 l;
     float p_n;
     float chart;
+    float energy;  // constant, ±1
 };
 
 // r w: from r⁴ − (R² − a²) r² − a² z² = 0.
@@ -72,8 +73,8 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     float l_over_sine = dot(start.n_rate, camera_e_phi.xyz), p_theta = dot(start.n_rate, camera_e_theta.xyz);
     // p_r of the chart, ∓(P − √R)/Δ ± 1, with the difference formed as K/(P + √R).
     float k = dot(start.n_rate, start.n_rate) + hole_spin * (hole_spin * sine * sine - 2.0 * start.lambda);
-    float carter_p = 1.0 + w * w * hole_spin * (hole_spin - start.lambda);
-    float p_r = chart * (k * w * w / (carter_p + abs(start.w_rate)) - 1.0);
+    float carter_p = start.energy * (1.0 + w * w * hole_spin * (hole_spin - start.lambda));
+    float p_r = chart * (k * w * w / (carter_p + abs(start.w_rate)) - start.energy);
     float across = p_theta - aw * l_over_sine * cosine;
     float sigma = 1.0 + aw * aw * cosine * cosine;
     float p_u = (sine * p_r + w * cosine * across) / sigma;
@@ -90,6 +91,7 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     s.l.z = sine * l_over_sine;
     s.p_n = (sine * (p_u + aw * p_e) + cosine * p_z) / stretch;
     s.chart = chart;
+    s.energy = start.energy;
     return s;
 }
 
@@ -106,7 +108,7 @@ State ray_rates(State s) {
     vec3 across = cross(l, s.n);
     float p_z = p_n * s.n.z + s.w * across.z;
     float along = rho * p_n - q * s.w * l.z;
-    float kappa = 1.0 + c * (along + lean * p_z);
+    float kappa = s.energy + c * (along + lean * p_z);
     float fk = (2.0 * rho / root) * kappa;
     float half_kappa2 = 0.5 * kappa * kappa;
 
@@ -124,7 +126,7 @@ State ray_rates(State s) {
     float torque = a * q * (s.n.z * (fk * l_r * rho * inv_d + half_kappa2 * (f_r * rho * inv_d + f_z)) + 2.0 * fk * c * p_z / rho);
     rate.l = torque * aside + fk * c * q * vec3(-l.y - (q / rho) * l.x, l.x - (q / rho) * l.y, 0.0);
     rate.p_n = s.w * s.chart * dot(across, rate.n) + half_kappa2 * (f_r * grad + f_z * q2 * nz2) + fk * (l_r * grad + c * (along + lean * p_z));
-    rate.chart = 0.0;
+    rate.chart = rate.energy = 0.0;
     return rate;
 }
 
@@ -133,7 +135,7 @@ State ray_rhs(Orbit orbit, State s) {
 }
 
 State state_step(State s, float h, State k) {
-    return State(s.n + h * k.n, s.w + h * k.w, s.l + h * k.l, s.p_n + h * k.p_n, s.chart);
+    return State(s.n + h * k.n, s.w + h * k.w, s.l + h * k.l, s.p_n + h * k.p_n, s.chart, s.energy);
 }
 
 // The charts differ by a turn about the axis and a shift of time, both functions of r: p changes by the turn and by a multiple of ∇r.
@@ -143,7 +145,7 @@ State ray_recharted(State before, State s) {
     float a = -s.chart * hole_spin, q2 = a * a * s.w * s.w;
     float rho = s.w / w, inv_d = 1.0 / (rho * rho * rho * rho + q2 * s.n.z * s.n.z);
     float delta = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
-    float kick = w * (4.0 * s.chart - 2.0 * a * s.l.z * w) / delta + 2.0 * a * s.l.z * w * w / (1.0 + a * a * w * w);
+    float kick = w * (4.0 * s.chart * s.energy - 2.0 * a * s.l.z * w) / delta + 2.0 * a * s.l.z * w * w / (1.0 + a * a * w * w);
     s.p_n -= kick * rho * (rho * rho + q2 * s.n.z * s.n.z) * inv_d;
     s.l.xy += (kick * a * a * s.w * s.n.z * rho * inv_d) * vec2(-s.n.y, s.n.x);
     vec2 turn = cos_sin(-2.0 * (hole_spin * s.chart * azimuth_lag(w) + small_arctan(a * w)));
