@@ -7,14 +7,21 @@ import math
 import numpy as np
 
 from .. import relativity
-from . import flat
+from . import flat, lenses
 from .hits import CAPTURED, ESCAPED, UNRESOLVED, ReferenceHits, angles, wrapped
 from .integrator import EVALUATIONS_PER_STEP, locate_zero, march
 from .kerr import KerrSystem
+from .mino import ENERGY, MinoSystem
+from .mino import L as L_MINO
 from .observers import Place, momenta, static_observer_exists
+from .post_newtonian import PostNewtonianSystem
 from .schwarzschild import N_Z, W, SchwarzschildSystem
 
-MODELS = ("flat", "schwarzschild", "kerr_like", "kerr")
+MODELS = ("flat", "screen_lens", "weak_field", "post_newtonian", "post_newtonian_drag", "schwarzschild", "schwarzschild_binet", "kerr_like",
+          "kerr", "kerr_schild")
+# Each form of one space-time is checked by another form: Mino time by Kerr-Schild, that by Mino time, Binet by Kerr-Schild without spin.
+_KERR = ("kerr", "kerr_schild", "schwarzschild_binet")
+_WITHOUT_SPIN = ("screen_lens", "weak_field", "post_newtonian", "schwarzschild", "schwarzschild_binet")
 INNERMOST_CROSSING = 1.02  # in units of the horizon: below, a crossing is left empty
 _MAX_STEPS = 4000  # a ray 1e-8 from the critical curve of a* = 0.9999 winds through 1,600
 _FINEST_TOLERANCE = 1e-13
@@ -26,18 +33,20 @@ Array = np.ndarray
 def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
           observer: str = "static", directions: Array | None = None, screen: Array | None = None,
           gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0, orders: int = 3,
-          orbit: str = "prograde", tolerance: float = 1e-12) -> ReferenceHits:
+          orbit: str = "prograde", tolerance: float = 1e-12, second_order: bool = True, lens_radius: float = 1.0,
+          lens_shadow: float = 2.598) -> ReferenceHits:
     """Traces rays backwards from the camera.
 
-    model            "flat", "schwarzschild", "kerr_like" or "kerr"
-    spin             a*, -0.9999 ... 0.9999; schwarzschild takes it as 0, flat uses it for the ball's size and the emitters' orbits
+    model            one of MODELS
+    spin             a*, -0.9999 ... 0.9999; models without spin take it as 0, flat uses it for the ball's size and the emitters' orbits
     distance         Boyer-Lindquist r of the camera in r_s, above the horizon; may be inf
     inclination_deg  theta of the camera, 0 ... 180; azimuth_deg: its phi
-    observer         "static" or "zamo"; only kerr tells them apart
+    observer         "static" or "zamo"; only kerr and kerr_schild tell them apart
     directions       (N, 3) look directions (n_r, n_theta, n_phi) in the observer's frame; normalised here
     screen           (N, 2) alpha (right), beta (up) in M: instead of directions, when distance is inf
-    gravity_strength G of schwarzschild and kerr_like; horizon_size: their capture radius in r_s
+    gravity_strength G of schwarzschild, kerr_like and the post-Newtonian models; horizon_size: their capture radius in horizon radii
     drag             k of kerr_like
+    second_order     of weak_field; lens_radius, lens_shadow: of screen_lens, in r_s
     orders           number of plane crossings kept; orbit: "prograde" or "retrograde" emitters
     tolerance        error allowed per step of the integrator; below 1e-13 rounding leaves nothing to gain
 
@@ -49,7 +58,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     at_infinity = math.isinf(distance)
     if (screen is None) == (directions is None) or (screen is None) == at_infinity:
         raise ValueError("rays are given by `screen` when distance is inf, and by `directions` otherwise")
-    if model == "schwarzschild":
+    if model in _WITHOUT_SPIN:
         spin = 0.0
     horizon = 1.0 if model == "kerr_like" else relativity.horizon_radius(spin)
     if distance <= horizon:
@@ -61,11 +70,19 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     place_m = Place.from_degrees(2.0 * distance, inclination_deg, azimuth_deg)
     place = Place.from_degrees(distance, inclination_deg, azimuth_deg)
     used = observer
-    if model == "kerr" and observer == "static" and not static_observer_exists(place_m, spin):
+    if model in _KERR and observer == "static" and not static_observer_exists(place_m, spin):
         used = "zamo"
     parts = [rays[i:i + _BATCH] for i in range(0, len(rays), _BATCH)] or [rays]
-    if model == "kerr":
-        traced = [_trace_kerr(part, place_m, spin, used, orders, tolerance) for part in parts]
+    if model in _KERR:
+        form = MinoSystem(-spin) if model == "kerr_schild" else KerrSystem(-spin)
+        traced = [_trace_kerr(part, place_m, form, used, orders, tolerance) for part in parts]
+    elif model == "weak_field":
+        traced = [_trace_weak_field(part, place, second_order, orders) for part in parts]
+    elif model == "screen_lens":
+        traced = [_trace_screen_lens(part, place, lens_radius, lens_shadow, orders) for part in parts]
+    elif model.startswith("post_newtonian"):
+        system = PostNewtonianSystem(gravity_strength, horizon_size * horizon, spin)
+        traced = [_trace_post_newtonian(part, place, system, orders, tolerance) for part in parts]
     elif model == "flat":
         traced = [_trace_flat(part, place, horizon_size * horizon, orders) for part in parts]
     else:
@@ -90,15 +107,44 @@ def _emitter_ratio(r: Array, energy: Array, l_z: Array, spin: float, orbit: str)
     return np.where(outside, e / (relativity.orbital_u_t(safe, spin, orbit) * (e - rate * l)), np.nan)
 
 
-def _trace_kerr(rays, place, spin, observer, orders, tolerance):
-    system = KerrSystem(-spin)
+def _trace_kerr(rays, place, system, observer, orders, tolerance):
     if math.isinf(place.r):
         state = system.start_at_infinity(place, rays)
     else:
-        state = system.start(place, momenta(rays, place, -spin, observer))
-    energy, l_z = state[8].copy(), -state[6]
+        state = system.start(place, momenta(rays, place, system.spin, observer))
+    rows = (ENERGY, L_MINO) if isinstance(system, MinoSystem) else (8, 6)
+    energy, l_z = state[rows[0]].copy(), -state[rows[1]]
     fate, direction, steps, r, phi = _follow(system, state, orders, tolerance)
     return fate, direction, steps, 0.5 * r, phi, energy, l_z
+
+
+def _flat_l_z(rays, place):
+    """L_z/E in M of the photons on straight rays."""
+    return -rays[:, 0] * place.sin_theta if math.isinf(place.r) else -2.0 * place.r * place.sin_theta * rays[:, 2]
+
+
+def _trace_post_newtonian(rays, place, system, orders, tolerance):
+    state = system.start_at_infinity(place, 0.5 * rays) if math.isinf(place.r) else system.start(place, rays)
+    return *_follow(system, state, orders, tolerance), np.ones(len(rays)), _flat_l_z(rays, place)
+
+
+def _trace_weak_field(rays, place, second_order, orders):
+    at_infinity = math.isinf(place.r)
+    lapse = 1.0 if at_infinity else math.sqrt((place.r - 1.0) / place.r)
+    fate, direction, r, phi = lenses.weak_field(place, 0.5 * rays if at_infinity else rays, second_order, orders)
+    return fate, direction, np.zeros(len(rays), dtype=np.int64), r, phi, np.ones(len(rays)), _flat_l_z(rays, place) / lapse
+
+
+def _trace_screen_lens(rays, place, lens_radius, shadow, orders):
+    if math.isinf(place.r):
+        fate, direction = lenses.screen_lens(place, 0.5 * rays, lens_radius, shadow)
+        traced = fate, direction, np.zeros(len(rays), dtype=np.int64), *np.full((2, len(rays), orders), np.nan), np.ones(len(rays)), _flat_l_z(rays, place)
+    else:
+        fate, lensed = lenses.screen_lens(place, rays, lens_radius, shadow)
+        traced = (fate, *_trace_flat(lensed, place, 0.0, orders)[1:])
+    hidden = fate == CAPTURED
+    traced[1][hidden], traced[3][hidden], traced[4][hidden] = 0.0, np.nan, np.nan
+    return traced
 
 
 def _trace_schwarzschild(rays, place, system, orders, tolerance):
@@ -115,10 +161,9 @@ def _trace_schwarzschild(rays, place, system, orders, tolerance):
 def _trace_flat(rays, place, radius, orders):
     if math.isinf(place.r):
         position, direction = flat.start_at_infinity(place, 0.5 * rays)
-        l_z = -rays[:, 0] * place.sin_theta
     else:
         position, direction = flat.start(place, rays)
-        l_z = -2.0 * place.r * place.sin_theta * rays[:, 2]
+    l_z = _flat_l_z(rays, place)
     fate, point = flat.trace_lines(position, direction, radius)
     direction = np.where((fate == ESCAPED)[:, None], direction, 0.0)
     r, phi = np.full((2, len(rays), orders), np.nan)

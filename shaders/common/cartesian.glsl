@@ -112,6 +112,7 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     vec3 aside = s.v - dot(s.v, n) * n;
     float speed = length(aside);
     vec3 across = speed > 0.0 ? aside / speed : vec3(0.0);
+    if (ray_drag() != 0.0) orbit.h2 = speed * speed / (u * u);  // a side force has changed it
     vec2 leg = orbit_leg(orbit, u, 0.0);
     add_leg_crossing(orbit, n, across, u, 0.0, s.twist, 1.0, hits);
     vec3 escape = turned(n, across, leg.x);

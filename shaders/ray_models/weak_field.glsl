@@ -49,7 +49,8 @@ Hits trace_ray(RayStart start) {
     vec3 corner = closest + t_kink * v;
     t = -corner.z / leaving.z;
     point = corner.xy + t * leaving.xy;
-    if (hits.fate == ESCAPED && t > 0.0 && dot(point, point) > least) add_crossing(hits, point);
+    bool from_within = start.n.z == 0.0 && cosine <= 0.0;  // a straight line that starts in the plane meets it nowhere else
+    if (hits.fate == ESCAPED && t > 0.0 && !from_within && dot(point, point) > least) add_crossing(hits, point);
 #endif
     return hits;
 }

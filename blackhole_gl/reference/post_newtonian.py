@@ -1,0 +1,92 @@
+"""Twins of the ray models `post_newtonian` and `post_newtonian_drag`, wrong as published (float64, r_s = 1, M = 1/2).
+
+    x'' = -G (M/r^3) x (1 + 3 h^2/r^2) - G (6 M/r^3) v cross J,    h = |x cross v| at the camera,  |v| = 1 there,  J = (0, 0, a M)
+
+with a = a*/2. The orbit is not planar with J, so the unknowns are n = x/r, w = 1/r, l = x cross v, v_n = n.v, and the parameter
+d sigma = dt/r^2: as in `kerr`, infinity is w = 0.
+
+    n' = l cross n,  w' = -v_n,  l' = k n cross (z cross v),  v_n' = w l^2 - G M (1 + 3 h^2 w^2) + k w n.(z cross v),  k = 6 G M a M
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .observers import Place
+
+Array = np.ndarray
+
+# Rows of the state; the first four are shared with the Kerr system.
+N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, V_N, H2 = range(9)
+
+
+class PostNewtonianSystem:
+    """gravity_strength: G; capture_radius in r_s; spin: a* of the drag, 0 without."""
+
+    def __init__(self, gravity_strength: float, capture_radius: float, spin: float = 0.0):
+        self.mass = 0.5 * gravity_strength
+        self.capture_radius = capture_radius
+        self.drag = 6.0 * gravity_strength * 0.5 * (0.5 * spin) * 0.5
+
+    def rhs(self, state: Array) -> Array:
+        n, w, l, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
+        across = np.cross(l, n, axis=0)
+        v = v_n * n + w * across
+        turned = np.stack([-v[1], v[0], np.zeros_like(w)])
+        change = np.zeros_like(state)
+        change[N_X:W] = across
+        change[W] = -v_n
+        change[L_X:V_N] = self.drag * np.cross(n, turned, axis=0)
+        force = self.drag * w * (n * turned).sum(axis=0) - self.mass * (1.0 + 3.0 * state[H2] * w * w)
+        change[V_N] = w * (across * across).sum(axis=0) + force
+        return change
+
+    def scale(self, state: Array) -> Array:
+        size = np.ones_like(state)
+        angular = 1.0 + self._l(state)
+        size[W], size[L_X:V_N] = 1.0 / angular, angular
+        size[V_N] = np.maximum(1.0, np.abs(state[V_N]))
+        return size
+
+    def longest_step(self, state: Array) -> Array:
+        return 2.0 / (self._l(state) + abs(self.drag) + 1e-3)
+
+    def rechart(self, before: Array, after: Array) -> Array:
+        return after
+
+    def captured(self, state: Array) -> Array:
+        return state[W] * self.capture_radius > 1.0
+
+    def radius(self, state: Array) -> Array:
+        """r in r_s, (N,)."""
+        return 1.0 / state[W]
+
+    def azimuth(self, state: Array) -> Array:
+        return np.arctan2(state[N_Y], state[N_X])
+
+    def direction(self, state: Array) -> Array:
+        """World direction at infinity (N, 3)."""
+        n = state[N_X:W].T
+        return n / np.linalg.norm(n, axis=1, keepdims=True)
+
+    def start(self, place: Place, directions: Array) -> Array:
+        """State (9, N) for local directions (N, 3) in a flat frame at `place` (r in r_s): the observer's own frame is skipped."""
+        frame = np.stack(place.frame())
+        return self._state(frame[0], 1.0 / place.r, np.cross(place.r * frame[0], directions @ frame).T, directions[:, 0])
+
+    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+        """State (9, N) of parallel rays at (alpha, beta) = `screen` (N, 2), in r_s."""
+        e_r, e_theta, e_phi = place.frame()
+        offset = np.outer(screen[:, 0], e_phi) - np.outer(screen[:, 1], e_theta)
+        return self._state(e_r, 0.0, np.cross(e_r, offset).T, -np.ones(len(screen)))
+
+    @staticmethod
+    def _state(n: Array, w: float, l: Array, v_n: Array) -> Array:
+        state = np.empty((9, v_n.size))
+        state[N_X:W], state[W], state[L_X:V_N], state[V_N] = n[:, None], w, l, v_n
+        state[H2] = (l * l).sum(axis=0)
+        return state
+
+    @staticmethod
+    def _l(state: Array) -> Array:
+        return np.sqrt((state[L_X:V_N] ** 2).sum(axis=0))
