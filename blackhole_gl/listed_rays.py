@@ -21,6 +21,13 @@ ANGLES = ("psi", "chi")
 SCREEN = ("alpha", "beta")
 _CROSSINGS = 3
 
+# Ray model → what its twin calls its parameters → their keys.
+_TWIN_PARAMETERS = {
+    "kerr_like": {"drag": "rays.kerr_like.drag"},
+    "weak_field": {"second_order": "rays.weak_field.second_order"},
+    "screen_lens": {"lens_radius": "rays.screen_lens.radius", "lens_shadow": "rays.screen_lens.shadow"},
+}
+
 
 class RayListError(ValueError):
     """A ray list that cannot be used; the text names file, line and column."""
@@ -111,7 +118,7 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
         return _nothing()
     camera = scene.camera
     given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
-    drag = {"drag": scene.get("rays.kerr_like.drag")} if scene.rays.model == "kerr_like" else {}
+    parameters = {name: scene.get(key) for name, key in _TWIN_PARAMETERS.get(scene.rays.model, {}).items()}
     found = reference.trace(
         observer.ray_model(scene).key,
         spin=observer.effective_spin(scene),
@@ -124,7 +131,7 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
         **given,
-        **drag,
+        **parameters,
     )
     kept = np.arange(_CROSSINGS) < scene.rays.orders
     direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
