@@ -1,4 +1,4 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, chart, check and presets."""
 
 from __future__ import annotations
 
@@ -82,6 +82,7 @@ def render(
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
     scene = _scene(preset, set_)
+    _refuse_unmet(scene)
     _render(scene, _size(size), _time(time, preset), out, supersample, backend)
 
 
@@ -102,11 +103,60 @@ def trace(
 
     scene = _scene(preset, set_)
     listed = listed_rays.read(rays, scene)
+    _refuse_unmet(scene)
     if float64:
         found = listed_rays.trace_by_reference(scene, listed)
     else:
         found = listed_rays.trace_by_shader(_renderer(backend), scene, listed)
     listed_rays.write(out, found, 17 if float64 else 9)
+
+
+@app.command()
+def chart(
+    out: Annotated[Path, typer.Option("--out", "-o", help="Folder for accuracy.md, pictures/ and data/.")] = Path("accuracy"),
+    plan_table: Annotated[Optional[Path], typer.Option(help="Also write the table that the plan chooses by.", show_default=False)] = None,
+    work: Annotated[Optional[Path], typer.Option(help="Folder for finished measurements, so that a broken-off run goes on.", show_default="the user's cache")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Few scenes, methods and rays: under 2 minutes.")] = False,
+    backend: Backend = "auto",
+) -> None:
+    """Measure the error and the cost of every method on this machine: tables, charts and a page. Under 20 minutes."""
+    from . import resources
+    from .chart import run
+    from .chart.pictures import library
+
+    library()  # says what is missing before the long part
+    renderer = _renderer(backend)
+    command = "make chart" if plan_table else "blackhole-gl chart" + (" --quick" if quick else "")
+    with _Progress("measuring") as progress:
+        written = run.make(renderer, out, work or resources.user_cache_dir() / "chart", quick=quick, command=command, progress=progress, plan_table=plan_table)
+    print("Written: " + ", ".join(str(path) for path in written))
+
+
+@app.command()
+def plan(
+    preset: Presets = None,
+    set_: Settings = None,
+    measure: Annotated[bool, typer.Option("--measure", help="Measure error and cost here and now beside the predictions.")] = False,
+    backend: Backend = "auto",
+) -> None:
+    """Say how a scene's rays are traced, why, and what error and cost to expect. A tolerance that cannot be met is refused."""
+    from . import plan as planning
+
+    scene = _scene(preset, set_)
+    chosen, made = planning.choice.choose(scene), planning.plan(scene)
+    print(f"method     {made.method}")
+    print(f"steps      at most {made.max_steps}, {made.evaluations_per_step} evaluations each")
+    print(f"crossings  {made.orders} orders")
+    if chosen.chosen is not None:
+        print(f"predicted  {chosen.chosen.error_px:.2g} px at 99 % of the pixels, {chosen.chosen.cost:.3g} flat frames")
+    if measure:
+        from .chart.prediction import measured
+
+        found = measured(_renderer(backend), scene)
+        print(f"measured   {found.error_px:.2g} px at 99 % of the pixels, {found.cost:.3g} flat frames")
+    for reason in made.reasons:
+        print(f"  - {reason}")
+    _refuse_unmet(scene)
 
 
 @app.command()
@@ -141,6 +191,19 @@ def presets(
 
 def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
     return preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
+
+
+def _refuse_unmet(scene: Scene) -> None:
+    """A stated tolerance below the floor is an error; the default one only earns a warning, so that any camera gives a picture."""
+    from . import choice
+
+    made = choice.choose(scene)
+    if made.meets:
+        return
+    text = f"rays.tolerance: {scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
+    if scene.rays.tolerance != type(scene.rays)().tolerance:
+        raise SceneError("rays.tolerance", text.partition(": ")[2])
+    print(f"blackhole-gl: {text}; the nearest is used", file=sys.stderr)
 
 
 def _time(time: float | None, names: list[str] | None) -> float:
@@ -193,7 +256,7 @@ class _Progress:
         self._clock = time.monotonic
         return self._show
 
-    def _show(self, share: float) -> None:
+    def _show(self, share: float, what: str = "") -> None:
         elapsed = self._clock() - self._start
         if elapsed < 1.0 and self._bar is None:
             return
@@ -204,7 +267,7 @@ class _Progress:
             self._bar = Progress(console=Console(stderr=True), transient=True)
             self._task = self._bar.add_task(self._label, total=1.0)
             self._bar.start()
-        self._bar.update(self._task, completed=share)
+        self._bar.update(self._task, completed=share, description=what or self._label)
 
     def __exit__(self, *_) -> None:
         if self._bar is not None:

@@ -40,8 +40,18 @@ class Observer:
 
 
 def ray_model(scene: Scene) -> catalogue.PlugIn:
-    """The plug-in that traces `scene`: its ``rays.model``, or ``flat`` with lensing off."""
-    return catalogue.plug_ins("ray_model")[scene.rays.model if scene.rays.lensing else "flat"]
+    """The plug-in that traces `scene`: its ``rays.model``, or ``flat`` with lensing off.
+
+    For ``auto``, the exact and general model of its hole; the plan may choose a cheaper one of the same space-time.
+    """
+    if not scene.rays.lensing:
+        key = "flat"
+    elif scene.rays.model == "auto":
+        artistic = scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0
+        key = "schwarzschild" if artistic else "kerr"
+    else:
+        key = scene.rays.model
+    return catalogue.plug_ins("ray_model")[key]
 
 
 def effective_spin(scene: Scene) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from . import catalogue, observer, relativity
+from . import catalogue, choice, observer, relativity
 from .catalogue import PlugIn
 from .scene import Scene, SceneError
 
@@ -61,6 +61,11 @@ class RayPlan:
         return f"{self.model.key}, {self.integrator.key}, {control}{step}"
 
 
+def resolved(scene: Scene) -> Scene:
+    """`scene` with everything chosen that it leaves to the plan."""
+    return choice.choose(scene).scene
+
+
 def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     """The plan for `scene`.
 
@@ -70,11 +75,14 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     Raises:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
+    made = choice.choose(scene)
+    scene, reasons = made.scene, list(made.reasons if scene.rays.lensing else ("flat: lensing is off",))
     model = observer.ray_model(scene)
-    reasons = [f"{model.key}: " + ("lensing is off" if not scene.rays.lensing else "chosen by rays.model")]
-    orders = scene.rays.orders if scene.disk.enabled or keep_crossings else 0
+    orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
     if orders == 0:
         reasons.append("no crossings are looked for: the disk is off")
+    elif orders < scene.rays.orders and not keep_crossings:
+        reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
     if model.traits["kind"] == "closed":
         return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, tuple(reasons))
     control = scene.rays.step_control
@@ -99,6 +107,23 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         orders,
         tuple(reasons),
     )
+
+
+def _visible_orders(scene: Scene) -> int:
+    """Orders of crossings that can be seen: 0 without a disk; of the others, those whose ring is not too thin for one grey level.
+
+    Each half turn thins the ring by e^{−π} in Schwarzschild (Ohanian 1987), the first being about as wide as the shadow; a spinning
+    hole's rings are wider on the receding side, for which a factor of 8 is left.
+    """
+    if not scene.disk.enabled:
+        return 0
+    if not scene.rays.lensing:
+        return 1
+    camera = scene.camera
+    half_height = 0.5 * camera.field_m / 2.0 if math.isinf(camera.distance) else camera.distance * math.tan(math.radians(0.5 * camera.fov_deg))
+    shadow_px = 0.5 * choice.PICTURE_HEIGHT * 2.6 * scene.hole.gravity_strength / half_height
+    seen = sum(8.0 * shadow_px * math.exp(-math.pi * order) >= 1.0 / 255.0 for order in range(1, 3))
+    return min(scene.rays.orders, 1 + seen)
 
 
 def march_bound(scene: Scene) -> float:

@@ -30,7 +30,10 @@ def switch(default: bool, help: str = "", *, physical: bool | None = None):
 
 
 def choice(default: str, options: tuple[str, ...] | str, help: str = "", *, physical: str | None = None):
-    """A record field that names one of `options`; a string names the catalogue slot whose plug-ins are the options."""
+    """A record field that names one of `options`; a string names the catalogue slot whose plug-ins are the options.
+
+    With the default ``auto``, that word is an option too: the plan chooses.
+    """
     return field(default=default, metadata=dict(kind="choice", options=options, help=help, physical=physical))
 
 
@@ -59,12 +62,13 @@ class Camera:
 class Rays:
     """How light is traced."""
 
-    model: str = choice("kerr", "ray_model", "The space-time and the form of its light rays.")
-    integrator: str = choice("rk4", "integrator", "One step of a marched model.")
-    step_control: str = choice("radius", "step_control", "How long the next step is, for models that march in Cartesian space.")
-    step_length: float = number(0.1, 0.005, 2.0, "r_s", "Length Δt₀ of a Cartesian step (at r = 3 r_s where the step follows the radius).")
-    step_angle: float = number(0.2, 0.01, 0.8, "rad", "Angular step κ of models that march in Mino time; halving it divides the error by about 16.")
-    max_steps: int = number(192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
+    model: str = choice("auto", "ray_model", "The space-time and the form of its light rays; auto: the cheapest that the tolerance allows, by the chart's measurements.")
+    integrator: str = choice("auto", "integrator", "One step of a marched model; auto as above.")
+    step_control: str = choice("auto", "step_control", "How long the next step is; auto: what suits the model.")
+    tolerance: float = number(0.5, 0.001, 100.0, "px", "Error allowed at 99 % of the pixels of a picture 1080 high, for what is chosen automatically.")
+    step_length: float = number(0.0, 0.0, 2.0, "r_s", "Length Δt₀ of a Cartesian step (at r = 3 r_s where the step follows the radius); 0: from the tolerance.")
+    step_angle: float = number(0.0, 0.0, 0.8, "rad", "Angular step κ of models that march in angles; halving it divides the error by about 16; 0: from the tolerance.")
+    max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
     lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
 
@@ -202,7 +206,7 @@ def _core_fields() -> Mapping[str, Field]:
             facts = dict(item.metadata)
             options = facts.pop("options", ())
             if isinstance(options, str):
-                options = catalogue.keys(options)
+                options = (("auto",) if item.default == "auto" else ()) + catalogue.keys(options)
             key = f"{section.name}.{item.name}"
             found[key] = Field(key, default=item.default, options=options, **facts)
     return MappingProxyType(found)

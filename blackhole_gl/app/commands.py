@@ -70,7 +70,7 @@ def toggle_spin(state: WindowState) -> None:
     scene = state.scene
     spinning = scene.hole.spin != 0.0
     state.holes[spinning] = {"hole.spin": scene.hole.spin, "rays.model": scene.rays.model}
-    first = {"hole.spin": 0.0} if spinning else {"hole.spin": DEFAULT_KERR_SPIN, "rays.model": "kerr"}
+    first = {"hole.spin": 0.0} if spinning else {"hole.spin": DEFAULT_KERR_SPIN, "rays.model": "auto"}
     state.change(state.holes.get(not spinning, first))
     spin = state.scene.hole.spin
     state.say(f"Kerr: a* = {spin:g}" if spin else "Schwarzschild: no spin")

@@ -81,7 +81,7 @@ class Renderer:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
             ShaderError: a shader has a mistake.
         """
-        ray_plan = plan.plan(scene)
+        ray_plan, scene = plan.plan(scene), plan.resolved(scene)
         stamps = [clock.perf_counter()]
         traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0))
         self._stamp(stamps, measure)
@@ -94,7 +94,7 @@ class Renderer:
 
     def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None) -> float:
         """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""
-        ray_plan = ray_plan or plan.plan(scene)
+        ray_plan, scene = ray_plan or plan.plan(scene), plan.resolved(scene)
         self.programs.get("trace.frag", scene, ray_plan)
         self.hit_map.forget()
         self.ctx.finish()
@@ -113,7 +113,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        ray_plan = plan.plan(scene)
+        ray_plan, scene = plan.plan(scene), plan.resolved(scene)
         width, height = size
         total = np.zeros((height, width, 4), np.float32)
         tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
@@ -136,7 +136,7 @@ class Renderer:
         Returns:
             Their hits; the exact g of each kept crossing, float32 (N, 3), 0 where there is none; the plan used.
         """
-        ray_plan = plan.plan(scene, keep_crossings=True)
+        ray_plan, scene = plan.plan(scene, keep_crossings=True), plan.resolved(scene)
         self._bind(scene, ray_plan, 0.0, (1, 1), (0.0, 0.0))
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         hits = self.hit_map.trace_listed(scene, ray_plan, directions)

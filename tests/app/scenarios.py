@@ -139,7 +139,7 @@ def keys_switch(hands: Hands) -> None:
     hands.press(Key.s)
     assert hands.scene.hole.spin == 0.0
     hands.press(Key.s)
-    assert hands.scene.hole.spin == 0.9 and hands.scene.rays.model == "kerr"
+    assert hands.scene.hole.spin == 0.9 and hands.scene.rays.model == "auto"
     hands.press(Key.p)
     paused_at = state.time
     hands.context.yield_(5)

@@ -16,9 +16,12 @@ LAYERS = (
     {"catalogue"},
     {"scene"},
     {"observer", "disk_profile", "output"},
-    {"presets", "plan", "glsl"},
+    {"choice", "glsl", "presets"},
+    {"plan"},
     {"render"},
-    {"app", "chart", "listed_rays", "timing"},
+    {"listed_rays", "timing"},
+    {"chart"},
+    {"app"},
     {"self_check"},
     {"cli"},
     {"__main__"},
@@ -33,6 +36,7 @@ INDEPENDENT = {"reference": {"relativity"}}
 CONFINED = {
     "imgui_bundle": ("app",),
     "glfw": ("app", "render/context.py"),
+    "matplotlib": ("chart/pictures.py",),
     "typer": ("cli",),
     "platformdirs": ("resources.py",),
 }

@@ -1,0 +1,39 @@
+"""The plan's predictions against what is measured here and now."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import choice, listed_rays, plan, timing
+from ..render.frame import Renderer
+from ..scene import Scene
+from .errors import compare
+from .scenes import NEAR_CRITICAL, ChartScene
+
+_SIZE = (480, 270)
+_ROUNDS = 7
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was measured: error in pixels at 99 % of the pixels, and cost in flat frames."""
+
+    error_px: float
+    cost: float
+
+
+def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
+    """Error and cost of the plan for `scene`, measured as the chart does.
+
+    Raises:
+        ValueError: the scene's gravity is artistic: there is no truth to compare with.
+    """
+    if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
+        raise ValueError("the scene's gravity is artistic: there is no truth to measure an error against")
+    stated = plan.resolved(scene)
+    place = ChartScene("measured", scene, rays)
+    found = listed_rays.trace_by_shader(renderer, stated, place.rays)
+    errors = compare(found, place.truth, place.epsilon >= NEAR_CRITICAL)
+    work = timing.tasks({"plan": stated, "flat": timing.flat_scene(stated)})
+    cost = timing.interleaved(renderer, work, _SIZE, "flat", _ROUNDS)["plan"].ratio
+    return Outcome(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
