@@ -5,6 +5,7 @@ VENV        ?= .venv
 WORKERS     ?= 2
 PRESET      ?=
 PYTEST_ARGS ?=
+CHART_ARGS  ?=
 
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
@@ -31,6 +32,10 @@ test: ## run the whole test suite
 gallery: ## the pictures of the README anew, into docs/pictures
 	@$(SETUP) run
 	$(BIN)/python tools/make_gallery.py
+
+chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
+	@$(SETUP) chart
+	$(BIN)/blackhole-gl chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output

@@ -34,6 +34,11 @@ def user_config_dir() -> Path:
     return Path(chosen) if chosen else platformdirs.user_config_path("blackhole-gl", appauthor=False)
 
 
+def user_cache_dir() -> Path:
+    """The folder for what can be made again; it need not exist yet."""
+    return platformdirs.user_cache_path("blackhole-gl", appauthor=False)
+
+
 def _data_dir(name: str) -> Path:
     """A wheel carries its data inside the package; a checkout has it beside the package.
 

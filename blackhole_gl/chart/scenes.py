@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .. import listed_rays, observer, presets, relativity
+from .. import catalogue, listed_rays, observer, presets, relativity
 from ..listed_rays import TracedRays
 from ..scene import Scene
 
@@ -117,4 +117,5 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
 
 
 def _has_a_hole(scene: Scene) -> bool:
-    return bool(observer.ray_model(scene).traits.get("charted", True)) and scene.rays.lensing
+    model = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses
+    return scene.rays.lensing and (model is None or bool(model.traits.get("charted", True)))
