@@ -10,8 +10,20 @@ from blackhole_gl import catalogue, plan, relativity
 from blackhole_gl.scene import Scene, SceneError
 
 
+STATED = {
+    "rays.model": "kerr",
+    "rays.integrator": "rk4",
+    "rays.step_control": "radius",
+    "rays.step_length": 0.1,
+    "rays.step_angle": 0.2,
+    "rays.max_steps": 192,
+}
+"""A method stated in full, so that nothing is left for the plan to choose."""
+
+
 def planned(keep_crossings: bool = False, **changes) -> plan.RayPlan:
-    return plan.plan(Scene().with_values({key.replace("__", "."): value for key, value in changes.items()}), keep_crossings=keep_crossings)
+    stated = {**STATED, **{key.replace("__", "."): value for key, value in changes.items()}}
+    return plan.plan(Scene().with_values(stated), keep_crossings=keep_crossings)
 
 
 def test_lensing_off_is_flat_space():
