@@ -49,7 +49,8 @@ class PostNewtonianSystem:
         return size
 
     def longest_step(self, state: Array) -> Array:
-        return 2.0 / (self._l(state) + abs(self.drag) + 1e-3)
+        # Short against half a turn, and against the way on which a pull alone would bring a ray back through infinity.
+        return 1.0 / (self._l(state) + abs(self.drag) + self.mass)
 
     def rechart(self, before: Array, after: Array) -> Array:
         return after

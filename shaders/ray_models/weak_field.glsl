@@ -38,7 +38,8 @@ Hits trace_ray(RayStart start) {
 #if RAYS_WEAK_FIELD_SECOND_ORDER
     angle += 1.47262156 * u * u;
 #endif
-    vec2 kink = cos_sin(min((1.0 + cosine) * angle, 100.0));
+    float share = cosine > 0.0 ? 1.0 + cosine : sine * sine / (1.0 - cosine);  // 1 + cos ψ without cancellation
+    vec2 kink = cos_sin(min(share * angle, 100.0));
     vec3 leaving = kink.x * v - kink.y * outward;
     if (hits.fate == ESCAPED) hits.direction = normalize(leaving);
 #if ORDERS > 0
