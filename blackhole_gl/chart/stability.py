@@ -241,8 +241,7 @@ def random_scenes(method: Method, rays: int, artistic: bool, seed: int) -> Itera
     """Scenes over the whole range of hole, camera and steps, each with at most 2000 random local directions, `rays` in all."""
     rng = np.random.default_rng(seed)
     base = presets.load(["reference"], chosen(method))
-    limits = base.with_values({})
-    per_scene = max(1, min(2000, rays // 50))
+    per_scene = max(1, min(2000, rays // 25))
     for _ in range(-(-rays // per_scene)):
         spin = float(rng.choice([0.0, 0.9999, -0.9999, *rng.uniform(-0.9999, 0.9999, 5)])) if traits(method)["spins"] else 0.0
         inclination = float(rng.choice([0.0, 90.0, 180.0, 89.99, *np.degrees(np.arccos(rng.uniform(-1.0, 1.0, 12)))]))
@@ -254,4 +253,4 @@ def random_scenes(method: Method, rays: int, artistic: bool, seed: int) -> Itera
         # Half towards the hole, where the picture is; half over the whole sky.
         reach = np.where(np.arange(per_scene) % 2 == 0, min(math.pi, 1.2 * math.atan(15.0 / distance)), math.pi)
         psi = np.arccos(1.0 - rng.uniform(0.0, 1.0, per_scene) * (1.0 - np.cos(reach)))
-        yield limits.with_values(values), observer.local_directions(psi, rng.uniform(0.0, 2.0 * np.pi, per_scene))
+        yield base.with_values(values), observer.local_directions(psi, rng.uniform(0.0, 2.0 * np.pi, per_scene))

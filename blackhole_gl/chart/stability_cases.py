@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, Callable, Literal, Mapping
 
 import numpy as np
@@ -109,7 +110,13 @@ def shadow_edge(scene: Scene, chi: np.ndarray) -> np.ndarray:
     """ψ of the shadow's edge that the scene's true space-time has: Kerr's, with the spin that its model knows."""
     camera, spin = scene.camera, observer.effective_spin(scene)
     kind = camera.observer if camera.observer == "zamo" or _may_rest(scene, spin) else "zamo"
-    return relativity.shadow_angle(chi, camera.distance, math.radians(camera.inclination_deg), spin, kind)
+    return _edge(chi.tobytes(), camera.distance, math.radians(camera.inclination_deg), spin, kind)
+
+
+@lru_cache(maxsize=None)
+def _edge(chi: bytes, distance: float, theta: float, spin: float, kind: str) -> np.ndarray:
+    """The same edges serve every method."""
+    return relativity.shadow_angle(np.frombuffer(chi), distance, theta, spin, kind)
 
 
 def _may_rest(scene: Scene, spin: float) -> bool:
