@@ -28,7 +28,7 @@ def test_spin_key_goes_to_schwarzschild_and_back(state):
 def test_spin_key_leaves_a_model_that_cannot_spin():
     state = WindowState.start(Scene().with_values({"rays.model": "schwarzschild"}))
     commands.toggle_spin(state)
-    assert state.scene.hole.spin > 0 and state.scene.rays.model == "kerr"
+    assert state.scene.hole.spin > 0 and state.scene.rays.model == "auto"
     commands.toggle_spin(state)
     assert state.scene.rays.model == "schwarzschild"
 
