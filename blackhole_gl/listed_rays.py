@@ -116,11 +116,11 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
     """`rays` (N, 2) by the float64 twin of the scene's ray model."""
     if len(rays) == 0:
         return _nothing()
-    camera = scene.camera
+    camera, model = scene.camera, observer.ray_model(scene)
     given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
     parameters = {name: scene.get(key) for name, key in _TWIN_PARAMETERS.get(scene.rays.model, {}).items()}
     found = reference.trace(
-        observer.ray_model(scene).key,
+        model.traits.get("twin", model.key),
         spin=observer.effective_spin(scene),
         distance=camera.distance,
         inclination_deg=camera.inclination_deg,

@@ -11,6 +11,7 @@ from ..plan import RayPlan
 from ..scene import Scene
 from . import uniforms
 from .programs import Programs, draw
+from .ray_tables import RayTables
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class HitMap:
 
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
+        tables: what closed ray models look up.
         traces: how many times rays have been traced, for tests and the overlay.
     """
 
@@ -44,6 +46,7 @@ class HitMap:
         self._ctx, self._programs = ctx, programs
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
+        self.tables = RayTables(ctx)
         self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
 
@@ -53,6 +56,7 @@ class HitMap:
         key = (id(triangle), ray_bytes, scene.hole, tuple(sorted((k, v) for k, v in scene.parameters.items() if k.startswith("rays."))), size, ray_plan.orders)
         if key == self._key:
             return False
+        self.tables.bind(triangle.program, scene)
         self._make_targets(size, ray_plan.orders)
         self._target.use()
         draw(triangle)
@@ -76,6 +80,7 @@ class HitMap:
         triangle = self._programs.get("trace.frag", scene, ray_plan, {"RAYS_LISTED": 1})
         triangle.program["listed_rays"].value = 0
         rays.use(0)
+        self.tables.bind(triangle.program, scene)
         self._key = None
         self._make_targets((width, height), ray_plan.orders)
         self._target.use()
@@ -113,7 +118,7 @@ class HitMap:
         count = 1 + min(orders, 2)
         if self._target is not None and self._target.size == size and len(self.textures) == count:
             return
-        self.release()
+        self._release_targets()
         self.textures = [self._ctx.texture(size, 4, dtype="f4") for _ in range(count)]
         for texture in self.textures:
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
@@ -121,6 +126,10 @@ class HitMap:
 
     def release(self) -> None:
         """Gives the GL objects back."""
+        self.tables.release()
+        self._release_targets()
+
+    def _release_targets(self) -> None:
         if self._target is not None:
             self._target.release()
             for texture in self.textures:

@@ -1,0 +1,92 @@
+/*---
+label = "Schwarzschild, table"
+summary = "Exact null orbits of a hole without spin, not marched: a table of how far round the hole each ray goes, and closed forms for the rest."
+source = "own, after Bruneton 2020 (all orbits from one radius are one family); Carlson's R_F; addition theorem of Weierstrass' function"
+slot = "ray_model"
+rank = 3
+kind = "closed"
+space_time = "schwarzschild"
+spins = false
+exact = true
+twin = "schwarzschild"
+---*/
+#include "common/orbit_from_centre.glsl"
+
+uniform sampler2D orbit_table;  // blackhole_gl/orbit_table.py
+uniform vec2 orbit_factors;     // from angular momentum to the table's coordinate
+uniform ivec2 orbit_cells;      // of the table: bits of a float that lie below its cell, number of the first cell
+
+// The angle swept to the ray's end; `ratio` = tan(ψ/2)/tan(ψ_c/2) is above 1 for a ray that escapes.
+float swept_angle(float ratio) {
+    float x = clamp(abs(ratio - 1.0), 5.9604645e-8, ratio > 1.0 ? 1e12 : 0.99999994);
+    int bits = floatBitsToInt(x);
+    int cell = bits >> orbit_cells.x;
+    float t = float(bits - (cell << orbit_cells.x)) / float(1 << orbit_cells.x) - 0.5;
+    vec4 cubic = texelFetch(orbit_table, ivec2(cell - orbit_cells.y, ratio > 1.0 ? 1 : 0), 0);
+    return cubic.x + t * (cubic.y + t * (cubic.z + t * cubic.w));
+}
+
+#if ORDERS > 0
+// The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets z = 0 first. The first is reached from the camera, the last from the
+// ray's end, which holds all digits however near the critical curve; those between from the camera by quarter turns: the longer
+// the way, the nearer orbit_on comes to 0/0 for a camera close to the horizon.
+void add_crossings(RayStart start, vec3 across, vec2 end, float swept, bool escapes, float kappa, float root_kappa, inout Hits hits) {
+    float tilt = length(vec2(start.n.z, across.z));
+    float side = start.n.z == 0.0 ? sign(across.z) : sign(start.n.z);  // a camera in the plane does not cross it where it is
+    vec2 first = vec2(-across.z * side, abs(start.n.z)) / max(tilt, 1e-30);
+    vec2 node = first.x * start.n.xy + first.y * across.xy;
+
+    int half_turns = int(swept * 0.318309886);
+    float flip = (half_turns & 1) == 0 ? 1.0 : -1.0;
+    vec2 rest = flip * vec2(end.x * first.x + end.y * first.y, end.y * first.x - end.x * first.y);
+    bool past = rest.y > 0.0;
+    if (!past) rest = -rest;
+    int count = tilt > 0.0 ? half_turns + (past ? 1 : 0) : 0;
+    float last = orbit_before_end(escapes, orbit_from_centre(rest, kappa), kappa, root_kappa);
+
+    bool behind = first.x < 0.0;
+    vec2 quarter_turn = orbit_from_centre(vec2(0.0, 1.0), kappa);
+    vec2 camera = vec2(2.0 * start.w, clamp(start.w_rate, -1.0, 1.0) * root_kappa);
+    vec2 base = behind ? orbit_state_on(camera, quarter_turn, kappa) : camera;
+    vec2 onward = orbit_from_centre(behind ? vec2(first.y, -first.x) : first, kappa);
+    float reach = 0.5 - 0.5 * first.x;
+    bool outside = kappa * reach * reach * reach < CENTRE_REACH;
+    vec3 u = vec3(0.0);
+    if (count > 0) u.x = count == 1 && escapes ? last : (outside ? orbit_on(base, onward, kappa) : 0.0);
+#if ORDERS > 1
+    base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
+    if (count > 1) u.y = count == 2 ? last : orbit_on(base, onward, kappa);
+#endif
+#if ORDERS > 2
+    base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
+    if (count > 2) u.z = count == 3 ? last : orbit_on(base, onward, kappa);
+#endif
+    for (int n = 0; n < ORDERS; ++n) {
+        bool kept = u[n] > 0.0 && u[n] * crossing_r_min < 1.0;
+        if (kept) add_crossing(hits, ((n & 1) == 0 ? node : -node) / u[n]);
+    }
+}
+#endif
+
+Hits trace_ray(RayStart start) {
+    Hits hits = no_hits(start.lambda);
+    hits.steps = 1;
+    float momentum = length(start.n_rate);
+    float root_kappa = 2.0 / max(momentum, 1e-10);
+    float kappa = root_kappa * root_kappa;
+    vec3 across = (0.5 * root_kappa) * start.n_rate;
+
+    float cosine = clamp(start.w_rate, -1.0, 1.0);
+    bool inward = cosine > 0.0;
+    float ratio = (inward ? orbit_factors.x * momentum : orbit_factors.y * (1.0 - cosine)) / (inward ? 1.0 + cosine : momentum);
+    bool escapes = ratio > 1.0;
+    float swept = swept_angle(ratio);
+    vec2 end = cos_sin(swept);
+
+    hits.fate = escapes ? ESCAPED : CAPTURED;
+    if (escapes) hits.direction = end.x * start.n + end.y * across;
+#if ORDERS > 0
+    add_crossings(start, across, end, swept, escapes, kappa, root_kappa, hits);
+#endif
+    return hits;
+}
