@@ -59,8 +59,11 @@ float state_difference(Orbit orbit, State a, State b) {
     return abs(a.w - b.w) / orbit.scale + abs(a.w_rate - b.w_rate) + abs(a.angle - b.angle);
 }
 
+// A whole number of 2⁻¹⁶ radians, so that the angle's sums are exact: else each step is rounded the same way, and many steps add up.
 float ray_plain_step(Orbit orbit, State s) {
-    return plan_step_angle * orbit.scale;
+    float h = plan_step_angle * orbit.scale;
+    float turn = floor(h * s.b * 65536.0 + 0.5) / 65536.0;
+    return turn > 1e-3 ? turn / s.b : h;
 }
 
 float ray_longest_step(Orbit orbit, State s) {
