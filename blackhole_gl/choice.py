@@ -248,7 +248,7 @@ def _fits(scene: Scene, row: Measured) -> bool:
         rays.model in (AUTO, row.model)
         and (not row.integrator or rays.integrator in (AUTO, row.integrator))
         and (not row.integrator or rays.step_control in (AUTO, row.step_control))
-        and (not row.integrator or stated_step in (0.0, step or stated_step))
+        and (not row.integrator or stated_step in (0.0, step))
     )
 
 
