@@ -15,7 +15,7 @@ from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge
 RELATIVE = 1e-5
 
 
-@pytest.mark.parametrize("model", ["kerr", "schwarzschild"])
+@pytest.mark.parametrize("model", ["kerr", "schwarzschild", "auto"])
 @pytest.mark.parametrize("distance", [1.7, 3.0, 10.0, 15.0, 100.0])
 def test_schwarzschild_shadow_of_a_static_observer(renderer: Renderer, model: str, distance: float) -> None:
     scene = presets.load(["schwarzschild", "reference"], {"rays.model": model, "camera.distance": distance})

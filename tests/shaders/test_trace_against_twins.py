@@ -25,6 +25,8 @@ SCENES = [
     ("kerr", 0.9, 45.0, 200.0, "static"),
     ("kerr", 0.99, 85.0, 20.0, "zamo"),
     ("kerr", 0.999, 90.0, 6.0, "static"),
+    ("auto", 0.95, 70.0, 8.0, "static"),
+    ("auto", 0.0, 70.0, 8.0, "static"),
     ("schwarzschild", 0.0, 80.0, 10.0, "static"),
     ("schwarzschild", 0.0, 45.0, 200.0, "static"),
     ("schwarzschild", 0.0, 3.0, 4.0, "static"),
