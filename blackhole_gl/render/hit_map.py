@@ -71,8 +71,9 @@ class HitMap:
     def trace_listed(self, scene: Scene, ray_plan: RayPlan, directions: np.ndarray) -> HitArrays:
         """Hits of listed local directions (N, 3) instead of pixels. The uniform blocks are bound."""
         count = len(directions)
-        width = min(count, 1024)
-        height = -(-count // width)
+        # Whole blocks of 4 × 4: software renderers run those whole, and a texel that is not there would be a ray without a direction.
+        width = min(-(-count // 4) * 4, 1024)
+        height = -(-count // (4 * width)) * 4
         listed = np.zeros((height * width, 4), np.float32)
         listed[:, 0] = -1.0
         listed[:count, :3] = directions
