@@ -159,8 +159,9 @@ float state_difference(Orbit orbit, State a, State b) {
     return length(a.n - b.n) + abs(a.w - b.w) / orbit.scale + length(a.l - b.l) * orbit.scale + abs(a.p_n - b.p_n);
 }
 
+// Shorter where the momentum along the radius exceeds b: light that just misses the horizon, or was sent from beside it.
 float ray_plain_step(Orbit orbit, State s) {
-    return plan_step_angle * orbit.scale;
+    return plan_step_angle * min(orbit.scale, 0.5 / max(abs(s.p_n), 1e-6));
 }
 
 float ray_longest_step(Orbit orbit, State s) {
