@@ -11,7 +11,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test gallery clean
+.PHONY: help setup view test test-slow gallery clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -36,6 +36,10 @@ gallery: ## the pictures of the README anew, into docs/pictures
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart
 	$(BIN)/blackhole-gl chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
+
+test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures
+	@$(SETUP) test
+	$(BIN)/python -m pytest -n $(WORKERS) -m slow $(PYTEST_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
