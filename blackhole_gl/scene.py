@@ -112,6 +112,7 @@ class Sky:
 class Post:
     """From scene radiance to the picture on the screen."""
 
+    view: str = choice("picture", ("picture", "steps", "order", "g_factor", "difference", "conservation", "unresolved"), "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, displacement from the most accurate method, drift of conserved quantities, unresolved rays.")
     exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light.")
     bloom: bool = switch(True, "Glow around bright places, as in a lens.")
     bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import plan
 from ..scene import Scene
-from . import uniforms
+from . import diagnostics, uniforms
 from .hit_map import HitArrays, HitMap
 from .post import PostPass
 from .programs import Programs
@@ -47,13 +47,16 @@ class Renderer:
     Attributes:
         programs: the compiled programs; ``programs.reload()`` takes up changed shader files.
         hit_map: the last trace.
+        reference_map: the last trace by the most accurate method, for the view that compares with it.
     """
 
     def __init__(self, ctx: moderngl.Context):
         self.ctx = ctx
         self.programs = Programs(ctx)
         self.hit_map = HitMap(ctx, self.programs)
+        self.reference_map = HitMap(ctx, self.programs)
         self._shade = ShadePass(ctx, self.programs)
+        self._views = diagnostics.ViewPass(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._radiance: moderngl.Framebuffer | None = None
@@ -81,7 +84,7 @@ class Renderer:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
             ShaderError: a shader has a mistake.
         """
-        ray_plan, scene = plan.plan(scene), plan.resolved(scene)
+        scene, ray_plan = diagnostics.prepared(plan.resolved(scene), plan.plan(scene))
         stamps = [clock.perf_counter()]
         traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0))
         self._stamp(stamps, measure)
@@ -113,7 +116,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        ray_plan, scene = plan.plan(scene), plan.resolved(scene)
+        scene, ray_plan = diagnostics.prepared(plan.resolved(scene), plan.plan(scene))
         width, height = size
         total = np.zeros((height, width, 4), np.float32)
         tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
@@ -160,6 +163,8 @@ class Renderer:
     def release(self) -> None:
         """Gives the GL objects back."""
         self.hit_map.release()
+        self.reference_map.release()
+        self._views.release()
         self._shade.release()
         self._post.release()
         for framebuffer in (self._radiance, self._picture):
@@ -172,14 +177,21 @@ class Renderer:
         self._buffers = {}
 
     def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float], picture: tuple[int, int] | None = None) -> bool:
-        ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        return self.hit_map.trace(scene, ray_plan, ray_bytes, size)
+        traced_reference = False
+        if scene.post.view == "difference":
+            exact, exact_plan = diagnostics.most_accurate(scene, ray_plan)
+            traced_reference = self.reference_map.trace(exact, exact_plan, self._bind(exact, exact_plan, time, picture or size, offset), size)
+        ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
+        return self.hit_map.trace(scene, ray_plan, ray_bytes, size) or traced_reference
 
     def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int]) -> None:
         if self._radiance is None or self._radiance.size != size:
             self._radiance = self._fresh(self._radiance, size, 4, "f2")
-        self._shade.draw(scene, ray_plan, self.hit_map, self._radiance)
+        if diagnostics.is_on(scene):
+            self._views.draw(scene, ray_plan, self.hit_map, self.reference_map, self._radiance)
+        else:
+            self._shade.draw(scene, ray_plan, self.hit_map, self._radiance)
 
     def _own_picture(self, size: tuple[int, int]) -> moderngl.Framebuffer:
         if self._picture is None or self._picture.size != size:

@@ -119,6 +119,16 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     hits.direction = normalize(vec3(twisted(escape.xy, s.twist + (ray_drag() - ray_twist_strength()) * leg.y), escape.z));
 }
 
+// |x × v|² = h² and v² = E² + G u (h²u² + 2 M), both central and both lost to drag.
+#define RAY_DRIFT ray_drift
+float ray_drift(Orbit orbit, State s) {
+    if (ray_drag() != 0.0) return -1.0;
+    float u = inversesqrt(dot(s.x, s.x));
+    vec3 turning = cross(s.x, s.v);
+    float square = orbit.e2 + hole_gravity_strength * u * (orbit.h2 * u * u + 2.0 * ray_newtonian_pull());
+    return max(abs(dot(turning, turning) - orbit.h2) / max(orbit.h2, 1.0), abs(dot(s.v, s.v) - square) / square);
+}
+
 float ray_height(State s) {
     return s.x.z;
 }

@@ -25,3 +25,9 @@ Crossing crossing_of(vec2 point) {
     crossing.cover = present * clamp(inside / (2.0 * half_width), 0.0, 1.0);
     return crossing;
 }
+
+// Whether a point of the plane lies between the disk's edges; without any width, so for views and not for pictures.
+bool on_disk(vec2 point) {
+    float r2 = dot(point, point);
+    return r2 >= disk_r_in * disk_r_in && r2 <= disk_r_out * disk_r_out;
+}

@@ -8,29 +8,36 @@ uniform sampler2D hits1;
 uniform sampler2D hits2;
 #endif
 
+// The hits in the texels of the three textures; those of textures that are not there are vec4(0).
+Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
+    int packed_fate = int(t0.w + 0.5);
+    return Hits(packed_fate & 3, t0.xyz, t1.z, packed_fate >> 2, vec2[3](t1.xy, t2.xy, t2.zw));
+}
+
+ivec2 place_in_map(ivec2 pixel) {
+    return clamp(pixel, ivec2(0), textureSize(hits0, 0) - 1);
+}
+
 // Fate and direction only, for footprints: `pixel` is clamped to the map.
 Hits fetch_escape(ivec2 pixel) {
-    vec4 t0 = texelFetch(hits0, clamp(pixel, ivec2(0), textureSize(hits0, 0) - 1), 0);
-    Hits hits = no_hits(0.0);
-    int packed_fate = int(t0.w + 0.5);
-    hits.fate = packed_fate & 3;
-    hits.steps = packed_fate >> 2;
-    hits.direction = t0.xyz;
-    return hits;
+    return unpacked_hits(texelFetch(hits0, place_in_map(pixel), 0), vec4(0.0), vec4(0.0));
 }
 
 Hits fetch_hits(ivec2 pixel) {
-    Hits hits = fetch_escape(pixel);
+    ivec2 place = place_in_map(pixel);
+    vec4 t1 = vec4(0.0), t2 = vec4(0.0);
 #if ORDERS > 0
-    ivec2 place = clamp(pixel, ivec2(0), textureSize(hits0, 0) - 1);
-    vec4 t1 = texelFetch(hits1, place, 0);
-    hits.crossing[0] = t1.xy;
-    hits.lambda = t1.z;
+    t1 = texelFetch(hits1, place, 0);
 #endif
 #if ORDERS > 1
-    vec4 t2 = texelFetch(hits2, place, 0);
-    hits.crossing[1] = t2.xy;
-    hits.crossing[2] = t2.zw;
+    t2 = texelFetch(hits2, place, 0);
 #endif
-    return hits;
+    return unpacked_hits(texelFetch(hits0, place, 0), t1, t2);
 }
+
+#if ORDERS > 0
+// Relative drift of what the ray's model conserves, −1 where nothing was measured: only kept for the view that shows it.
+float fetch_drift(ivec2 pixel) {
+    return texelFetch(hits1, place_in_map(pixel), 0).w;
+}
+#endif

@@ -19,6 +19,8 @@
 //     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
+// RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its
+// size; −1 for none. For the view of conserved quantities only.
 //
 // A step control gives step_size(Orbit, State), or with STEP_ADAPTS
 //     State adapted_step(Orbit, State s, inout float trial, out float h)   one step of length h ≤ trial; rejected: s itself, with h = 0
@@ -95,6 +97,9 @@ Hits trace_ray(RayStart start) {
 #endif
         if (fate != UNRESOLVED || steps >= plan_max_steps) break;
     }
+#if POST_VIEW_CONSERVATION && defined(RAY_DRIFT)
+    march_drift = RAY_DRIFT(orbit, next);
+#endif
     hits.steps = steps;
     hits.fate = fate;
     if (fate == ESCAPED) ray_finish(orbit, march_step(orbit, s, h * end), hits);

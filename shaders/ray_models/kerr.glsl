@@ -108,6 +108,15 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     hits.direction = normalize(vec3(rotate(n.xy, cos_sin(s.twist)), n.z));
 }
 
+// w'² = R(w) = 1 + c₂w² + ⅔c₃w³ + ½c₄w⁴, against the sizes of its terms; n stays on the sphere.
+#define RAY_DRIFT ray_drift
+float ray_drift(Orbit orbit, State s) {
+    float w = s.w;
+    vec3 terms = orbit.c * vec3(1.0, 2.0 / 3.0, 0.5) * vec3(w * w, w * w * w, w * w * w * w);
+    float radial = abs(s.w_rate * s.w_rate - 1.0 - terms.x - terms.y - terms.z);
+    return max(radial / (1.0 + abs(terms.x) + abs(terms.y) + abs(terms.z)), abs(length(s.n) - 1.0));
+}
+
 float ray_height(State s) {
     return s.n.z;
 }
