@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Callable, Collection, Mapping
 
+from ..scene import fields
 from .camera_control import Motion, limited, pose_of
 from .state import WindowState
 
@@ -76,6 +77,12 @@ def toggle_spin(state: WindowState) -> None:
     state.say(f"Kerr: a* = {spin:g}" if spin else "Schwarzschild: no spin")
 
 
+def next_view(state: WindowState) -> None:
+    """From the picture to the first diagnostic view, on to the next, and from the last back to the picture."""
+    views = fields()["post.view"].options
+    state.change({"post.view": views[(views.index(state.scene.post.view) + 1) % len(views)]})
+
+
 def toggle_pause(state: WindowState) -> None:
     """Stops scene time or lets it run."""
     state.paused = not state.paused
@@ -115,6 +122,8 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "help": flip("show_help"),
     "picture": flip("picture_wanted"),
     "full_screen": flip("full_screen"),
+    "view": next_view,
     "panel": flip("show_panel"),
     "overlay": flip("show_overlay"),
+    "chart": flip("show_chart"),
 }

@@ -50,6 +50,7 @@ class WindowState:
     show_panel: bool = True
     show_help: bool = False
     show_overlay: bool = True
+    show_chart: bool = False
     full_screen: bool = False
     picture_wanted: bool = False
     file: str = "scene.toml"

@@ -11,10 +11,12 @@ from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the
 import glfw
 import moderngl
 
+from ..chart import live
 from ..resources import user_config_dir
 from ..scene import Scene
-from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme
+from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
 from .full_screen import FullScreen
+from .live_chart import LiveChart
 from .panel import Panel
 from .picture import Area, Picture
 from .shortcuts import Shortcuts
@@ -88,13 +90,14 @@ def run(
         params.use_imgui_test_engine = True
         params.callbacks.register_tests = lambda: driver.register(window)
     try:
-        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams())
+        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
     except RuntimeError as error:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
     try:
         while not params.app_shall_exit and not (driver is not None and driver.finished):
             immapp.manual_render.render()
     finally:
+        live.close()
         immapp.manual_render.tear_down()
     return window.state
 
@@ -174,6 +177,7 @@ class Window:
         self._shortcuts = Shortcuts(self.bindings)
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
+        self.live_chart = LiveChart(make_renderer)
         self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
@@ -204,7 +208,8 @@ class Window:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
-        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or not self.state.is_moving)
+        busy = self.state.is_moving or self.live_chart.busy(self.state)
+        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or not busy)
         self._full_screen.set(self.state.full_screen)
 
     def frame(self) -> None:
@@ -220,8 +225,10 @@ class Window:
         em = hello_imgui.em_size()
         if self.picture is not None:
             overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        view_scale.draw(state, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         help_window.draw(state, self.bindings, self.key_file)
+        self.live_chart.draw(state)
 
     def draw_panel(self) -> None:
         """The panel's own window."""
@@ -235,6 +242,7 @@ class Window:
             return
         window = self._gl.detect_framebuffer()
         self._render(view.area)
+        self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.picture.draw(window, view.area)
 
     # --- parts of a frame ---

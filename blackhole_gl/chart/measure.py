@@ -15,7 +15,7 @@ from .methods import Method
 from .scenes import NEAR_CRITICAL, ChartScene
 
 # A frame that takes longer than this (seconds) is timed in one round only: its ratio is steady enough, and the chart has an end.
-_LONG_FRAME = 0.2
+_LONG_FRAME = 0.15
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Timings:
     rounds: int
 
 
-FULL = Timings((480, 270), 3)
+FULL = Timings((320, 180), 3)
 QUICK = Timings((320, 180), 2)
 
 

@@ -74,12 +74,16 @@ class Method:
         }
         return ladder[self.knob][quick]
 
-    def applied(self, scene: Scene, setting: float) -> Scene:
-        """`scene` traced by this method with `setting`."""
-        values: dict[str, Any] = {"rays.model": self.model, "rays.lensing": True, "rays.max_steps": MAX_STEPS, "rays.orders": 3, **dict(self.changes)}
+    def values(self, setting: float) -> dict[str, Any]:
+        """The scene values, by dotted key, that make a scene be traced by this method with `setting`."""
+        values: dict[str, Any] = {"rays.model": self.model, "rays.lensing": True, "rays.max_steps": MAX_STEPS, **dict(self.changes)}
         if self.integrator:
             values |= {"rays.integrator": self.integrator, "rays.step_control": self.step_control, **_FIRST_TRIAL, self.knob_key: setting}
-        return scene.with_values(values)
+        return values
+
+    def applied(self, scene: Scene, setting: float) -> Scene:
+        """`scene` traced by this method with `setting`, all orders of crossings kept."""
+        return scene.with_values({**self.values(setting), "rays.orders": 3})
 
 
 def sensible(scene: Scene, whole: bool = True) -> list[Method]:

@@ -47,7 +47,7 @@ class ChartScene:
 
     name: str
     scene: Scene
-    count: int = 2000
+    count: int = 1500
     whole: bool = True
 
     @property
@@ -113,7 +113,7 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
         return [ChartScene(name, own[name], 400, whole=False) for name in SHOWN]
     shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group in ("physics", "scene")}
     physical = {name: scene for name, scene in shipped.items() if is_physical(scene) and _has_a_hole(scene)}
-    return [ChartScene(name, scene) for name, scene in own.items()] + [ChartScene(name, scene, whole=False) for name, scene in physical.items()]
+    return [ChartScene(name, scene, whole=name in SHOWN) for name, scene in (own | physical).items()]
 
 
 def _has_a_hole(scene: Scene) -> bool:

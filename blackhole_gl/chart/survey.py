@@ -6,12 +6,12 @@ from typing import Callable
 
 import numpy as np
 
-from .. import listed_rays
+from .. import catalogue, listed_rays
 from ..listed_rays import TracedRays
 from ..render.frame import Renderer
 from .measure import FULL, QUICK, Row, measure
-from .methods import Method, sensible
-from .scenes import ChartScene, chart_scenes, true_scene
+from .methods import Method, exact_for, sensible
+from .scenes import ChartScene, chart_scenes
 from .work import Kept, key_of
 
 
@@ -42,13 +42,13 @@ def survey(renderer: Renderer, kept: Kept, quick: bool = False, progress: Callab
 
 
 def own_twin(chart_scene: ChartScene, method: Method) -> TracedRays | None:
-    """The rays by the method's own float64 twin; None where that is the truth itself, or where the model has no twin."""
-    scene = method.applied(chart_scene.scene, method.settings()[0])
-    if method.model == true_scene(chart_scene.scene).rays.model:
+    """The rays by the method's own float64 twin; None where the model is exact for the scene, so that its twin is the truth itself."""
+    if exact_for(catalogue.plug_ins("ray_model")[method.model], chart_scene.scene):
         return None
+    scene = method.applied(chart_scene.scene, method.settings()[0])
     try:
         return listed_rays.trace_by_reference(scene, chart_scene.rays)
-    except ValueError:
+    except ValueError:  # a model without a twin
         return _no_rays(len(chart_scene.rays))
 
 

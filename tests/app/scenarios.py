@@ -15,7 +15,8 @@ from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 import glfw
 from PIL import Image
 
-from blackhole_gl import presets
+from blackhole_gl import plan, presets
+from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.window import PANEL, Window
 from blackhole_gl.scene import Scene
 
@@ -345,12 +346,36 @@ def shader_edited(hands: Hands) -> None:
     _wait(hands, lambda: hands.state.shader_error is None)
 
 
-def _wait(hands: Hands, for_what: Callable[[], bool]) -> None:
+def live_chart(hands: Hands) -> None:
+    """C opens the chart, which fills by itself and leaves the picture's own hit map alone; a point's method can be taken."""
+    hands.press(Key.p)
+    hands.settle()
+    hands.press(Key.c)
+    chart, traces = hands.window.live_chart, hands.window.picture.renderer.hit_map.traces
+    assert hands.state.show_chart and chart.busy(hands.state)
+    _wait(hands, lambda: len(chart.points) >= 3, seconds=50.0)  # the engine gives a scenario 60 s
+    assert hands.window.picture.renderer.hit_map.traces == traces
+    assert not hands.state.render_error and not hands.state.shader_error
+    best = min(chart.points, key=lambda point: point.pixels)
+    worst = max(chart.points, key=lambda point: point.pixels)
+    assert best.method.model == "kerr" and best.pixels < 5.0 < worst.pixels
+    use(best, hands.state)
+    hands.context.yield_(2)
+    assert [is_used(point, hands.scene, plan.plan(hands.scene)) for point in (best, worst)] == [True, False]
+    assert hands.window.picture.report.method.startswith(best.method.model)
+    assert best in chart.points, "another method is no other view"
+    hands.state.change({"hole.gravity_strength": 2.0})
+    _wait(hands, lambda: not chart.points)
+    hands.press(Key.c)
+    assert not hands.state.show_chart and not chart.busy(hands.state)
+
+
+def _wait(hands: Hands, for_what: Callable[[], bool], seconds: float = 2.0) -> None:
     """Lets frames pass until `for_what`, two seconds at most: twice what an edit may take."""
     started = time.monotonic()
     while not for_what():
-        assert time.monotonic() - started < 2.0, "nothing happened"
+        assert time.monotonic() - started < seconds, "nothing happened"
         hands.context.yield_()
 
 
-WITH_THE_REAL_RENDERER = (real_picture, shader_edited)
+WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart)

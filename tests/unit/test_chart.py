@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import catalogue, plan, presets, relativity
-from blackhole_gl.chart import critical, errors, measure, page, pareto, pictures, run, sizes, table, validation
+from blackhole_gl.chart import critical, errors, live, measure, page, pareto, pictures, run, sizes, table, validation
 from blackhole_gl.chart.methods import Method, exact_for, sensible
 from blackhole_gl.chart.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
 from blackhole_gl.chart.survey import own_twin
@@ -218,3 +219,41 @@ def test_the_shipped_table_is_one_the_chart_wrote() -> None:
     assert tuple(records[0]) == measure.CONTRACT
     assert set(SHOWN) <= {record["scene"] for record in records}
     assert len({(r["model"], r["integrator"], r["step_control"]) for r in records}) >= 12
+
+
+class _AtOnce:
+    """Stands for the other process: does the work when it is given."""
+
+    def submit(self, work, *given) -> Future:
+        done = Future()
+        done.set_result(work(*given))
+        return done
+
+
+def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live, "_worker", _AtOnce)
+    measured = live.Live(presets.load(["kerr"]))
+    assert measured.busy and measured.waiting and not measured.points
+    for _ in range(200):
+        measured.advance(renderer)
+        if len(measured.points) >= 2:
+            break
+    point = measured.points[0]
+    assert (point.method, point.setting) == (Method("kerr", "rk4", "mino"), 0.8)
+    assert point.cost > 0.0 and point.pixels == pytest.approx(point.error / math.radians(42.0 / 1080.0))
+    assert 0.0 < measured.share < 1.0
+    taken = plan.plan(presets.load(["kerr"]).with_values(point.method.values(point.setting)))
+    assert (taken.model.key, taken.step_angle) == ("kerr", 0.8)
+    measured.cancel()
+    assert not measured.busy and not measured.advance(renderer)
+
+
+def test_the_live_chart_of_art_says_that_there_is_no_truth() -> None:
+    measured = live.Live(presets.load(["gargantua_s1"]))
+    assert "no truth" in measured.failure and not measured.busy
+
+
+def test_another_method_is_no_other_view() -> None:
+    scene = presets.load(["kerr"])
+    assert live.view_of(scene) == live.view_of(scene.with_values(Method("kerr", "euler", "mino").values(0.1)))
+    assert live.view_of(scene) != live.view_of(scene.with_values({"camera.distance": 21.0}))
