@@ -160,8 +160,9 @@ float state_difference(Orbit orbit, State a, State b) {
 }
 
 // Shorter where the momentum along the radius exceeds b: light that just misses the horizon, or was sent from beside it.
+// Not without end: an integrator of low order lets it run away.
 float ray_plain_step(Orbit orbit, State s) {
-    return plan_step_angle * min(orbit.scale, 0.5 / max(abs(s.p_n), 1e-6));
+    return plan_step_angle * clamp(0.5 / max(abs(s.p_n), 1e-6), 0.02 * orbit.scale, orbit.scale);
 }
 
 float ray_longest_step(Orbit orbit, State s) {
