@@ -6,12 +6,13 @@ WORKERS     ?= 2
 PRESET      ?=
 PYTEST_ARGS ?=
 CHART_ARGS  ?=
+STABILITY_ARGS ?=
 
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow gallery clean
+.PHONY: help setup view test test-slow gallery chart stability clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -40,6 +41,10 @@ chart: ## measure every method: docs/accuracy.md, its charts, and the table the 
 test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures
 	@$(SETUP) test
 	$(BIN)/python -m pytest -n $(WORKERS) -m slow $(PYTEST_ARGS)
+
+stability: ## every method through the cases where methods fail: docs/stability.md; STABILITY_ARGS="--only kerr"
+	@$(SETUP) run
+	$(BIN)/python tools/make_stability_page.py $(STABILITY_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
