@@ -11,7 +11,7 @@ from .state import WindowState
 _FLAGS = imgui.WindowFlags_
 _STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
 _FIXED = (_STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
-_UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
+UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
 
 Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
 
@@ -23,7 +23,7 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
         return
     imgui.set_next_window_pos(corner)
     imgui.set_next_window_bg_alpha(0.6)
-    imgui.begin("##figures", None, _UNTOUCHED)
+    imgui.begin("##figures", None, UNTOUCHED)
     speed = f"{imgui.get_io().framerate:.0f} fps" if state.is_moving else "at rest"
     trace = f"{report.trace_ms:.1f} ms" if report.traced else "kept"
     imgui.text_colored(theme.QUIET, f"{speed}, paused" if state.paused else speed)
@@ -49,7 +49,7 @@ def messages(state: WindowState, corner: Corner, width: float) -> None:
 
 
 def _dismissable(name: str, state: WindowState, corner: Corner, width: float) -> bool:
-    _begin_message(name, corner, width, _FIXED if state.notice.is_error else _UNTOUCHED)
+    _begin_message(name, corner, width, _FIXED if state.notice.is_error else UNTOUCHED)
     dismissed = state.notice.is_error and imgui.small_button("x")
     if state.notice.is_error:
         imgui.same_line()
@@ -59,7 +59,7 @@ def _dismissable(name: str, state: WindowState, corner: Corner, width: float) ->
 
 
 def _message(name: str, text: str, corner: Corner, width: float, *, is_error: bool) -> Corner:
-    _begin_message(name, corner, width, _UNTOUCHED)
+    _begin_message(name, corner, width, UNTOUCHED)
     _body(text, is_error, width)
     height = imgui.get_window_height()
     imgui.end()

@@ -97,6 +97,8 @@ class WindowState:
     def is_playing(self) -> bool:
         """Whether the picture changes by itself."""
         scene = self.scene
+        if scene.post.view != "picture":  # diagnostic views know no time
+            return False
         return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and (scene.disk.point_field or scene.disk.turbulence)
 
     @property
