@@ -18,7 +18,7 @@ from PIL import Image
 from blackhole_gl import plan, presets
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.window import PANEL, Window
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, fields
 
 Key = imgui.Key
 PICTURES = "pictures"  # the folder that F12 fills, beside the scenarios' own
@@ -332,6 +332,18 @@ def _save_picture(hands: Hands) -> Path:
     hands.context.yield_(4)
     (path,) = set(folder.glob("*.png")) - before
     return path
+
+
+def diagnostic_views(hands: Hands) -> None:
+    """V goes through the views, each with its scale over the picture, and back to the picture."""
+    shown = []
+    for _ in range(len(fields()["post.view"].options)):
+        hands.press(Key.v)
+        shown.append(hands.scene.post.view)
+        scale = imgui.internal.find_window_by_name("##view scale")
+        assert (scale is not None and scale.active) == (shown[-1] != "picture")
+        assert shown[-1] == "picture" or not hands.state.is_playing, "nothing in a view changes with time"
+    assert tuple(shown) == (*fields()["post.view"].options[1:], "picture")
 
 
 def shader_edited(hands: Hands) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -152,3 +154,16 @@ def test_scales_run_from_dark_to_light_and_fold_at_one() -> None:
     assert g.place(1.0) == pytest.approx(0.5)
     ends = g.colours(3)
     assert ends[0, 0] > 2.0 * ends[0, 2] and ends[2, 2] > 2.0 * ends[2, 0] and np.ptp(ends[1]) < 0.01
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_ranges_stand_in_the_documents(view: str) -> None:
+    """A saved picture has no numbers on it."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "architecture.md").read_text(encoding="utf-8")
+    (row,) = [line for line in page.splitlines() if line.startswith(f"| `{view}` |")]
+    scale, stated = view_of(scene_with(view)).scale, row.split("|")[3]
+    if scale is None:
+        assert stated.strip() == "–"
+    else:
+        assert f"{scale.low:g}".replace("e-0", "e-") in stated
+        assert ("rays.max_steps" if view == "steps" else f"{scale.high:g}") in stated
