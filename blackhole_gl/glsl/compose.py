@@ -6,7 +6,7 @@ Directives, each alone on its line and never acted on inside a comment:
 ``#slot ray_model``                   the file of the plug-in chosen for a slot
 ``#slots disk_layer``                 the files of all plug-ins chosen for a slot
 ``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` replaced
-``#blocks``                           the uniform blocks
+``#blocks``                           the numbers that the host gives, those that the text mentions
 ``#defines``                          the switches that the text mentions
 
 moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses the line numbers.
@@ -17,7 +17,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Mapping, Sequence
+from typing import Callable, Mapping, Sequence
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -51,11 +51,13 @@ class Composed:
         text: GLSL for the driver.
         places: for each line of `text`, its (file, 1-based line).
         defines: the switches that the text mentions, with their values.
+        words: every identifier in the text, less those in line comments.
     """
 
     text: str
     places: tuple[tuple[str, int], ...]
     defines: Mapping[str, int]
+    words: frozenset[str] = frozenset()
 
     def explain(self, log: str) -> ShaderError:
         """The driver's compile `log` as an error that names the author's file and line (the first with a place)."""
@@ -84,7 +86,7 @@ def compose(
     *,
     chosen: Mapping[str, Sequence[str]] | None = None,
     switches: Mapping[str, int] | None = None,
-    blocks: str = "",
+    blocks: Callable[[frozenset[str]], str] = lambda words: "",
 ) -> Composed:
     """The text of ``root/path`` with all directives carried out.
 
@@ -93,24 +95,26 @@ def compose(
         path: path below it.
         chosen: slot → paths (below `root`) of the chosen plug-ins.
         switches: name → value of every possible ``#define``; only those mentioned are written.
-        blocks: GLSL that replaces ``#blocks``.
+        blocks: gives the GLSL that replaces ``#blocks`` from the identifiers of the text.
 
     Raises:
         ShaderError: a file or a slot is missing, or a directive is malformed.
     """
-    lines = list(_expand(root, path, chosen or {}, blocks, set(), ("", 0)))
-    words = {word for text, _ in lines for word in _WORD.findall(text)}
+    lines = list(_expand(root, path, chosen or {}, set(), ("", 0)))
+    words = frozenset(word for text, _ in lines for word in _WORD.findall(text.partition("//")[0]))
     used = {name: value for name, value in (switches or {}).items() if name in words}
     out: list[tuple[str, tuple[str, int]]] = []
     for text, place in lines:
         if text.strip() == "#defines":
             out.extend((f"#define {name} {value}", place) for name, value in used.items())
+        elif text.strip() == "#blocks":
+            out.extend((line, place) for line in blocks(words).splitlines())
         else:
             out.append((text, place))
-    return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used)
+    return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used, words)
 
 
-def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], blocks: str, seen: set[str], asked_at: tuple[str, int]):
+def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: set[str], asked_at: tuple[str, int]):
     if path in seen:
         return
     seen.add(path)
@@ -123,15 +127,13 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], blocks: 
         place = (path, number)
         match = None if in_comment else _DIRECTIVE.match(text)
         in_comment = _comment_open(text, in_comment)
-        if match is None or match[1] == "defines":
+        if match is None or match[1] in ("defines", "blocks"):
             yield text, place
-        elif match[1] == "blocks":
-            yield from ((line, place) for line in blocks.splitlines())
         elif match[1] == "include":
             name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
             if name is None:
                 raise ShaderError('write #include "path below shaders/"', *place)
-            yield from _expand(root, name[1], chosen, blocks, seen, place)
+            yield from _expand(root, name[1], chosen, seen, place)
         else:
             slot, _, template = match[2].partition(":")
             if slot.strip() not in chosen:
@@ -140,7 +142,7 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], blocks: 
                 if match[1] == "each":
                     yield template.strip().replace("$key", Path(plug_in).stem), place
                 else:
-                    yield from _expand(root, plug_in, chosen, blocks, seen, place)
+                    yield from _expand(root, plug_in, chosen, seen, place)
 
 
 def _comment_open(text: str, is_open: bool) -> bool:

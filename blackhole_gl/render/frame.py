@@ -207,7 +207,7 @@ class Renderer:
     def _bind(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> bytes:
         """Fills and binds the uniform blocks; returns the ray block's bytes."""
         packed = uniforms.as_bytes(scene, ray_plan, time, size, offset)
-        for block in (uniforms.RAY_BLOCK, uniforms.SHADE_BLOCK, uniforms.scene_block()):
+        for block in uniforms.blocks():
             data = packed[block.name]
             if block.name not in self._buffers:
                 self._buffers[block.name] = self.ctx.buffer(data, dynamic=True)

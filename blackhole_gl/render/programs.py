@@ -8,6 +8,7 @@ from typing import Mapping, Sequence
 import moderngl
 
 from .. import catalogue
+from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
 from ..plan import RayPlan
 from ..resources import shaders_dir
@@ -65,16 +66,16 @@ class Programs:
         return self.errors
 
     def _compose(self, path: str, chosen: Mapping[str, Sequence[str]], switches: Mapping[str, int]) -> Composed:
-        return compose(self.root, path, chosen=chosen, switches=switches, blocks=uniforms.blocks_glsl())
+        return compose(self.root, path, chosen=chosen, switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
 
     def _compiled(self, composed: Composed) -> moderngl.VertexArray:
         if composed.text not in self._by_text:
-            vertex = compose(self.root, "fullscreen.vert").text
+            vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
             try:
                 program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
             except moderngl.Error as error:
                 raise composed.explain(str(error)) from None
-            for block in (uniforms.RAY_BLOCK, uniforms.SHADE_BLOCK, uniforms.scene_block()):
+            for block in uniforms.blocks():
                 if block.name in program:
                     program[block.name].binding = block.binding
             self._by_text[composed.text] = self.ctx.vertex_array(program, [])

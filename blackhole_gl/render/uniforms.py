@@ -58,9 +58,9 @@ def scene_block() -> Block:
     return Block("SceneBlock", 2, members)
 
 
-def blocks_glsl() -> str:
-    """The GLSL declarations of all blocks."""
-    return "\n".join(block.glsl for block in (RAY_BLOCK, SHADE_BLOCK, scene_block()))
+def blocks() -> tuple[Block, ...]:
+    """All uniform blocks."""
+    return RAY_BLOCK, SHADE_BLOCK, scene_block()
 
 
 def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:

@@ -88,7 +88,7 @@ class Piece:
 
     def __init__(self, ctx: moderngl.Context, path: str | Path, *, chosen: Mapping[str, Sequence[str]] | None = None, switches: Mapping[str, int] | None = None, **uniforms: Any):
         blocks = "\n".join(f"uniform {kind} {name};" for name, (kind, _) in UNIFORMS.items())
-        composed = compose(shaders_dir(), str(path), chosen={"disk_layer": [], "sky": [], **(chosen or {})}, switches={**SWITCHES, **(switches or {})}, blocks=blocks)
+        composed = compose(shaders_dir(), str(path), chosen={"disk_layer": [], "sky": [], **(chosen or {})}, switches={**SWITCHES, **(switches or {})}, blocks=lambda _: blocks)
         try:
             self.program = ctx.program(vertex_shader=VERTEX, fragment_shader=composed.text)
         except moderngl.Error as error:

@@ -61,8 +61,8 @@ def test_only_switches_that_the_text_mentions_are_written(shaders):
 
 
 def test_blocks_are_put_in_and_keep_the_lines_right(shaders):
-    made = compose(shaders(main="#blocks\nint a;\n"), "main.glsl", blocks="uniform B {\n    float x;\n};")
-    assert made.text == "uniform B {\n    float x;\n};\nint a;\n"
+    made = compose(shaders(main="#blocks\nint a; // aa\n"), "main.glsl", blocks=lambda words: f"uniform B {{\n    float {min(words)};\n}};")
+    assert made.text == "uniform B {\n    float a;\n};\nint a; // aa\n"
     assert made.place(2) == ("main.glsl", 1) and made.place(4) == ("main.glsl", 2)
 
 
