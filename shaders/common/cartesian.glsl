@@ -98,7 +98,8 @@ int ray_fate(Orbit orbit, State s) {
     float inner = 0.5 * hole_w_factors.x * hole_horizon_size;
     if (r2 < inner * inner) return CAPTURED;
     float outward = dot(s.x, s.v);
-    bool leaves = outward > 0.0 && outward * outward > OUTWARD_COSINE * OUTWARD_COSINE * r2 * dot(s.v, s.v);
+    bool free = ray_newtonian_pull() == 0.0 || orbit.e2 > 0.0;  // a Newtonian pull can hold what has |v| = 1 close to the hole
+    bool leaves = free && outward > 0.0 && outward * outward > OUTWARD_COSINE * OUTWARD_COSINE * r2 * dot(s.v, s.v);
     return leaves && r2 > march_bound * march_bound ? ESCAPED : UNRESOLVED;
 }
 

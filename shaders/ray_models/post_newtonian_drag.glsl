@@ -15,6 +15,7 @@ exact = false
 ---*/
 // J = (0, 0, a M) with M = 1/2 and a = a*/2: k = 6 M a M = 3a*/4. A backward ray's v turns the sign of a photon's, and with it the
 // flattened side of the shadow comes out where the disk approaches, as it should. h is that of the start: the drag changes |x × v|.
+// From cameras within r = 2 some rays have less than the escape speed: they go round until they fall in, or stay without a fate.
 
 float ray_twist_strength() {
     return 0.0;
