@@ -188,6 +188,20 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     hits.direction = normalize(s.n - (s.w / rate.w) * rate.n);  // less what the root left over; at infinity the azimuths agree
 }
 
+// p² − 1 − f κ² = 0, against the sizes of its terms; n stays on the sphere.
+#define RAY_DRIFT ray_drift
+float ray_drift(Orbit orbit, State s) {
+    float q = -s.chart * hole_spin * s.w, q2 = q * q, nz2 = s.n.z * s.n.z;
+    vec3 l = s.chart * s.l;
+    float p_n = s.chart * s.p_n;
+    float rho = kerr_rho(q2, nz2);
+    float p_z = p_n * s.n.z + s.w * cross(l, s.n).z;
+    float kappa = s.energy + (rho * p_n - q * s.w * l.z + q2 * s.n.z / rho * p_z) / (rho * rho + q2);
+    float pull = 2.0 * s.w * rho * rho * rho / (rho * rho * rho * rho + q2 * nz2) * kappa * kappa;
+    float p2 = p_n * p_n + s.w * s.w * dot(l, l);
+    return max(abs(p2 - 1.0 - pull) / (1.0 + p2 + abs(pull)), abs(length(s.n) - 1.0));
+}
+
 float ray_height(State s) {
     return s.n.z;
 }

@@ -88,6 +88,13 @@ void ray_finish(Orbit orbit, State s, inout Hits hits) {
     hits.direction = normalize(turn.x * s.n + turn.y * s.aside);
 }
 
+// w'² = 1 − K w² (1 − 2 w), against the sizes of its terms.
+#define RAY_DRIFT ray_drift
+float ray_drift(Orbit orbit, State s) {
+    float bend = orbit.k * s.w * s.w;
+    return abs(s.w_rate * s.w_rate - 1.0 + bend * (1.0 - 2.0 * s.w)) / (1.0 + bend * (1.0 + 2.0 * abs(s.w)));
+}
+
 float ray_height(State s) {
     return dot(cos_sin(s.angle), vec2(s.n.z, s.aside.z));
 }

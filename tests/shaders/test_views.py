@@ -105,12 +105,15 @@ def test_difference_traces_the_reference_once(renderer: Renderer) -> None:
     assert renderer.reference_map.traces == traces + 1
 
 
-@pytest.mark.parametrize(("model", "fine", "coarse"), [("kerr", {"rays.step_angle": 0.05}, {"rays.step_angle": 0.8}), ("schwarzschild", {"rays.step_length": 0.1}, {"rays.step_length": 1.5})])
-def test_conserved_quantities_drift_more_with_longer_steps(renderer: Renderer, model: str, fine: dict, coarse: dict) -> None:
-    method = {"rays.integrator": "rk4", "rays.step_control": "auto", "disk.enabled": False}
-    pictures = [drawn(renderer, scene_with("conservation", model, **{**method, **steps})) for steps in (fine, coarse)]
-    green = [picture[..., 1].mean() for picture in pictures]
-    assert green[1] > 1.5 * green[0]
+@pytest.mark.parametrize("model", ["kerr", "kerr_schild", "schwarzschild", "schwarzschild_binet", "kerr_like", "post_newtonian"])
+def test_conserved_quantities_drift_by_rounding_alone_unless_steps_are_long(renderer: Renderer, model: str) -> None:
+    """1e-5 is a hundred roundings of a float32; what rk4 loses at the longest steps is far above."""
+    drift = {}
+    for step in (0.05, 0.8):
+        drawn(renderer, scene_with("conservation", model, **{"rays.integrator": "rk4", "rays.step_angle": step, "rays.step_length": step, "disk.enabled": False}))
+        drift[step] = np.frombuffer(renderer.hit_map.textures[1].read(), np.float32).reshape(*SIZE[::-1], 4)[..., 3]
+    assert drift[0.05].min() >= 0.0 and np.quantile(drift[0.05], 0.99) < 1e-5
+    assert np.quantile(drift[0.8], 0.99) > 1e-4
 
 
 def test_a_model_without_a_conserved_quantity_is_grey(renderer: Renderer) -> None:
