@@ -1,7 +1,7 @@
 """Runs every stability case through every method and writes docs/stability.md and tests/stability/verdicts.csv; `make stability`.
 
---only WORD runs the methods whose names hold the word (`default`: each model's default method; `viewer`: no method, the viewer's own cases) and keeps
-the rest as stored. --check writes nothing and says which cells differ from the stored ones.
+--only WORD runs the methods whose names hold the word and keeps the rest as stored. Words of their own: `default`, each model's default method; `viewer`,
+the viewer's own cases; `missing`, what is not stored yet, with which an interrupted run goes on. --check writes nothing and says what differs.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import argparse
 import math
 import sys
 from pathlib import Path
+from typing import Callable
 
 from blackhole_gl.chart import stability, stability_page
 from blackhole_gl.chart.stability_cases import CASES
@@ -21,24 +22,29 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "stability.md"
 TABLE = ROOT / "tests" / "stability" / "verdicts.csv"
 
-DEFAULT_RAYS, OTHER_RAYS = 1_000_000, 5_000
+DEFAULT_RAYS, OTHER_RAYS = 1_000_000, 2_500
 """Rays of a sweep through a model's default method, and through any other."""
 
 
 Table = dict[tuple[str, str], stability.Outcome]
 
 
-def measure(renderer: Renderer, rays: int, full: bool, only: str, old: Table) -> Table:
-    """The outcome of every cell, in the page's order; those of methods that `only` leaves out are taken from `old`."""
-    found = {}
+def measure(renderer: Renderer, rays: int, full: bool, only: str, old: Table, keep: Callable[[Table], None]) -> Table:
+    """The outcome of every cell, in the page's order; those of methods that `only` leaves out are taken from `old`.
+
+    Args:
+        keep: called with what there is after each method that ran.
+    """
+    found: Table = {}
     every = stability.methods()
     for number, method in enumerate(every):
         wanted = stability.is_default(method) if only == "default" else only in method.name
-        for case in CASES:
-            cell = case.key, method.name
-            count = rays if stability.is_default(method) else min(rays, OTHER_RAYS)
-            found[cell] = stability.run(renderer, case, method, count) if wanted or cell not in old else old[cell]
-        print(f"{number + 1}/{len(every)} {method.name}", file=sys.stderr, flush=True)
+        count = rays if stability.is_default(method) else min(rays, OTHER_RAYS)
+        due = [case for case in CASES if wanted or (case.key, method.name) not in old]
+        found |= {(case.key, method.name): stability.run(renderer, case, method, count) if case in due else old[case.key, method.name] for case in CASES}
+        if due:
+            keep({**old, **found})
+            print(f"{number + 1}/{len(every)} {method.name}", file=sys.stderr, flush=True)
     for case in VIEWER_CASES:
         cell = case.key, stability_page.VIEWER
         found[cell] = case.run(renderer, full) if only in ("", stability_page.VIEWER) or cell not in old else old[cell]
@@ -67,7 +73,8 @@ def main() -> int:
     print(describe(context), file=sys.stderr)
     renderer = Renderer(context)
     old = stability_page.loads(TABLE.read_text(encoding="utf-8")) if TABLE.exists() else {}
-    new = measure(renderer, given.rays, not given.small, given.only, old)
+    keep = (lambda table: None) if given.check else (lambda table: TABLE.write_text(stability_page.dumps(table), encoding="utf-8"))
+    new = measure(renderer, given.rays, not given.small, given.only, old, keep)
     changed = differences(old, new)
     print("\n".join(changed))
     if given.check:

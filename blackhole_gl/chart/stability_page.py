@@ -24,7 +24,8 @@ EXPLANATIONS: Mapping[str, str] = {
     "o": "Truncation: the integrator is of first to third order, and at the steps of the reference quality its error is above the bound; shorter steps or a higher order mend it.",
     "f": "A Cartesian step of fixed length is as long beside the horizon as far away.",
     "t": "The step control's tolerance, at its default, allows an error above the bound in one step or sums it up over several turns.",
-    "h": "Just above the horizon the momenta of Kerr–Schild's coordinates grow as 1/Δ before a ray changes its chart, and float32 loses the difference. `kerr` has no such place.",
+    "h": "Beside the horizon of a fast spinning hole the momenta of Kerr–Schild's coordinates reach 1/Δ before a ray changes its chart, and float32 loses the difference.",
+    "r": "Rounding beyond the bound: a Cartesian march of many evaluations a step near the critical curve. Its order is no help against float32.",
 }
 """Why a cell is not fine, by the letter that stands in it."""
 
@@ -38,12 +39,14 @@ def explanation(case: Case, method: Method) -> str:
         return "c"
     if not method.integrator:
         return ""
-    if method.model == "kerr_schild" and case.key in ("horizon", "horizon-spinning", "spin-limit", "spin-limit-reversed", "ergosphere", "sweep"):
-        return "h"
     if catalogue.plug_ins("integrator")[method.integrator].traits["order"] <= 3:
         return "o"
     if method.step_control == "fixed":
         return "f"
+    if method.model == "kerr_schild" and case.key in ("spin-limit", "spin-limit-reversed", "sweep"):
+        return "h"
+    if case.entry == "9.6" and facts["marches_in"] == "cartesian":
+        return "r"
     return "t" if catalogue.plug_ins("step_control")[method.step_control].traits.get("adapts") else ""
 
 
