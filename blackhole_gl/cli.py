@@ -1,4 +1,4 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, chart, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, chart, bench, check and presets."""
 
 from __future__ import annotations
 
@@ -157,6 +157,32 @@ def plan(
     for reason in made.reasons:
         print(f"  - {reason}")
     _refuse_unmet(scene)
+
+
+@app.command()
+def bench(
+    preset: Presets = None,
+    set_: Settings = None,
+    size: Annotated[Optional[list[str]], typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
+    rounds: Annotated[int, typer.Option(min=1, max=100, help="Frames of each kind; medians are taken.")] = 5,
+    json: Annotated[Optional[Path], typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
+    euler: Annotated[bool, typer.Option(help="Also time 300 Euler steps, the yardstick E.")] = True,
+    backend: Backend = "auto",
+) -> None:
+    """Time whole frames and their parts on this machine: methods, still and moving, over picture sizes."""
+    from json import dumps
+
+    from . import bench as benching
+    from .output.files import write_whole
+
+    scene = _scene(preset, set_)
+    sizes = [_size(text) for text in size] if size else benching.SIZES
+    renderer = _renderer(backend)
+    with _Progress("timing") as progress:
+        found = benching.measure(renderer, scene, sizes, rounds, euler, progress)
+    print(benching.text(found), end="")
+    if json is not None:
+        write_whole(json, (dumps(found.as_dict(), indent=1, ensure_ascii=False) + "\n").encode())
 
 
 @app.command()

@@ -20,7 +20,7 @@ LAYERS = (
     {"plan"},
     {"render"},
     {"listed_rays", "timing"},
-    {"chart"},
+    {"chart", "bench"},
     {"app"},
     {"self_check"},
     {"cli"},

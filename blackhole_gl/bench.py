@@ -1,0 +1,140 @@
+"""How long frames take on this machine: methods and looks, still and moving, over picture sizes; interleaved, as ratios to the flat frame.
+
+A *still* frame keeps the hit map and lets the disk turn: shade and post. A *moving* one follows a camera that has gone half a degree round and
+half a degree down since the last: trace, shade and post. Times are by the wall clock with the pipeline drained after each frame; beside
+their median stands the least processor time of the process, which other programs disturb less and which a GPU makes meaningless.
+"""
+
+from __future__ import annotations
+
+import platform
+import statistics
+import time as clock
+from dataclasses import asdict, dataclass
+from typing import Callable, Iterable, Mapping
+
+from . import plan, timing
+from .render.frame import Renderer
+from .scene import Scene
+
+SIZES = ((640, 360), (1280, 720), (1920, 1080), (3840, 2160))
+TURN_DEG = 0.5
+YARDSTICK = "flat"
+
+
+@dataclass(frozen=True)
+class Frames:
+    """One scene at one size, still or moving.
+
+    Attributes:
+        scene: its name; method: how its rays are traced; motion: ``still`` or ``moving``.
+        width, height: pixels.
+        milliseconds: median of whole frames by the wall clock; trace_ms, shade_ms, post_ms: medians of their parts.
+        ratio: median over the rounds of the whole frame relative to the flat one of the same round, size and motion.
+        processor_ms: least processor time of a whole frame.
+    """
+
+    scene: str
+    method: str
+    motion: str
+    width: int
+    height: int
+    milliseconds: float
+    trace_ms: float
+    shade_ms: float
+    post_ms: float
+    ratio: float
+    processor_ms: float
+
+
+@dataclass(frozen=True)
+class Bench:
+    """A whole run: the machine, the rounds and the rows. `euler_ms` is E, the trace of 300 fixed Euler steps at 1280×720; None when not asked for."""
+
+    machine: str
+    renderer: str
+    rounds: int
+    euler_ms: float | None
+    rows: tuple[Frames, ...]
+
+    def as_dict(self) -> dict[str, object]:
+        """What JSON takes."""
+        return asdict(self)
+
+
+def scenes(scene: Scene) -> dict[str, Scene]:
+    """What is compared: `scene` by its own plan, straight rays, other ray models, and `scene` with one part left out."""
+    without_spin = scene.with_values({"hole.spin": 0.0})
+    return {
+        YARDSTICK: timing.flat_scene(scene),
+        "as given": scene,
+        "kerr, κ = 0.2": scene.with_values({"rays.model": "kerr", "rays.step_angle": 0.2}),
+        "schwarzschild": without_spin.with_values({"rays.model": "schwarzschild"}),
+        "table": without_spin.with_values({"rays.model": "schwarzschild_table"}),
+        "table, no disk": without_spin.with_values({"rays.model": "schwarzschild_table", "disk.enabled": False}),
+        "table, no sky": without_spin.with_values({"rays.model": "schwarzschild_table", "sky.enabled": False}),
+        "table, no bloom": without_spin.with_values({"rays.model": "schwarzschild_table", "post.bloom": False}),
+    }
+
+
+def measure(renderer: Renderer, scene: Scene, sizes: Iterable[tuple[int, int]] = SIZES, rounds: int = 5, euler: bool = True, progress: Callable[[float], None] | None = None) -> Bench:
+    """Runs the bench on `renderer`.
+
+    Args:
+        euler: also time E, which takes as long as dozens of frames.
+        progress: called with the share done, 0…1.
+    """
+    compared, sizes = scenes(scene), tuple(sizes)
+    rows: list[Frames] = []
+    for done, size in enumerate(sizes):
+        for half, motion in enumerate(("still", "moving")):
+            rows += _rows(renderer, compared, motion, size, rounds)
+            if progress is not None:
+                progress((done + 0.5 * (half + 1)) / len(sizes))
+    yardstick = None
+    if euler:
+        slow, slow_plan = timing.euler_task(scene)
+        yardstick = 1e3 * statistics.median(renderer.time_trace(slow, (1280, 720), slow_plan) for _ in range(3))
+    return Bench(platform.processor() or platform.machine(), renderer.ctx.info["GL_RENDERER"], rounds, yardstick, tuple(rows))
+
+
+def text(bench: Bench) -> str:
+    """The bench as a Markdown table."""
+    lines = [
+        f"{bench.renderer}; {bench.rounds} rounds" + (f"; E = {bench.euler_ms:.0f} ms" if bench.euler_ms else ""),
+        "",
+        "| size | motion | scene | method | ms | trace | shade | post | × flat | processor ms |",
+        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
+    ]
+    for row in bench.rows:
+        times = " | ".join(f"{value:.1f}" for value in (row.milliseconds, row.trace_ms, row.shade_ms, row.post_ms))
+        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {row.processor_ms:.1f} |")
+    return "\n".join(lines) + "\n"
+
+
+def _rows(renderer: Renderer, compared: Mapping[str, Scene], motion: str, size: tuple[int, int], rounds: int) -> list[Frames]:
+    wall: dict[str, list[tuple[float, ...]]] = {name: [] for name in compared}
+    processor: dict[str, list[float]] = {name: [] for name in compared}
+    for counted in range(-1, rounds):
+        for name, scene in compared.items():
+            frame = _moved(scene, counted + 2) if motion == "moving" else scene
+            renderer.render(frame, 0.0, size)
+            if motion == "moving":
+                renderer.hit_map.forget()
+            renderer.ctx.finish()
+            start = clock.process_time()
+            report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True)
+            if counted >= 0:
+                processor[name].append(1e3 * (clock.process_time() - start))
+                wall[name].append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
+    found = []
+    for name, scene in compared.items():
+        whole, *parts = (statistics.median(column) for column in zip(*wall[name]))
+        ratio = statistics.median(a[0] / b[0] for a, b in zip(wall[name], wall[YARDSTICK]))
+        found.append(Frames(name, plan.plan(scene).method, motion, *size, whole, *parts, ratio, min(processor[name])))
+    return found
+
+
+def _moved(scene: Scene, frames: int) -> Scene:
+    angle = scene.camera.inclination_deg
+    return scene.with_values({"camera.azimuth_deg": scene.camera.azimuth_deg + TURN_DEG * frames, "camera.inclination_deg": min(angle + TURN_DEG * frames, 180.0)})

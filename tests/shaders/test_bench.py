@@ -1,0 +1,28 @@
+"""The bench: every row there, moving frames traced and still ones not, ratios to the flat frame of the same kind."""
+
+from __future__ import annotations
+
+import json
+
+from typer.testing import CliRunner
+
+from blackhole_gl import bench, presets
+from blackhole_gl.cli import app
+from blackhole_gl.render.frame import Renderer
+
+
+def test_still_frames_keep_the_hit_map_and_moving_ones_trace(renderer: Renderer) -> None:
+    found = bench.measure(renderer, presets.load(["schwarzschild"]), [(64, 36), (96, 54)], rounds=1, euler=False)
+    names = list(bench.scenes(presets.load(["schwarzschild"])))
+    assert [(row.width, row.motion, row.scene) for row in found.rows] == [(w, motion, name) for w in (64, 96) for motion in ("still", "moving") for name in names]
+    assert all(row.ratio == 1.0 for row in found.rows if row.scene == bench.YARDSTICK)
+    assert all(row.milliseconds > 0.0 and row.processor_ms > 0.0 for row in found.rows)
+    assert found.euler_ms is None and bench.text(found).count("\n| ") == 1 + len(found.rows) + 1
+
+
+def test_the_command_prints_a_table_and_writes_json(tmp_path) -> None:
+    out = tmp_path / "bench.json"
+    result = CliRunner().invoke(app, ["bench", "--size", "32x18", "--rounds", "1", "--no-euler", "--json", str(out)])
+    assert result.exit_code == 0, result.output
+    assert "| 32×18 | moving | table | schwarzschild_table |" in result.output
+    assert len(json.loads(out.read_text(encoding="utf-8"))["rows"]) == 16
