@@ -18,6 +18,7 @@
 //     float ray_plain_step(Orbit, State), ray_longest_step(Orbit, State)   the step before any control; the longest in which nothing is missed
 //     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
+// RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
 // RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its
 // size; −1 for none. For the view of conserved quantities only.
@@ -45,7 +46,11 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
     if (t >= end) return;
     State there = march_step(orbit, a, h * t);
     float slip = clamp(-ray_height(there) / ray_height_rate(there), -0.1 * h, 0.1 * h);
+#ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
+#else
+    there = state_drift(there, slip);
+#endif
     vec2 point = ray_plane_point(there);
     if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point);
 }

@@ -22,6 +22,8 @@ exact = true
 
 #define RAY_RECHARTS
 
+#define RAY_FIRST_ORDER
+
 struct Orbit {
     float scale;  // 1/√(L² + 1) at the camera
 };
