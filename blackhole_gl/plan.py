@@ -154,7 +154,11 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
 
 
 def effective_disk_radii(scene: Scene) -> tuple[float, float]:
-    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
-    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
+    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner.
+
+    The ISCO is that of the space-time in which light runs: with `kerr_like` that is Schwarzschild's, whatever the spin, for light
+    and matter of two space-times make no sense together close in.
+    """
+    isco = float(relativity.isco_radius(observer.horizon_spin(scene), scene.disk.orbit))
     inner = max(scene.disk.inner_radius, isco)
     return inner, max(scene.disk.outer_radius, inner * 1.0001)
