@@ -10,6 +10,7 @@ from ..output.files import write_whole
 from ..render.frame import Renderer
 from ..scene import Scene
 from . import critical, page, pictures, sizes, table
+from .finest import finest
 from .measure import Row
 from .methods import Method
 from .scenes import ChartScene, chart_scenes
@@ -47,10 +48,11 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     costs = sizes.costs(renderer, presets.load(["kerr"]), quick)
     progress(0.98, "S1's validation")
     validation = validate(renderer)
+    best = finest(renderer, scenes)
     progress(0.99, "pictures and page")
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
-    found = page.Findings(scenes, rows, points, costs, validation, chosen, table.read(outside) if outside.exists() else [])
+    found = page.Findings(scenes, rows, points, costs, validation, best, chosen, table.read(outside) if outside.exists() else [])
     files = {
         "data/accuracy.csv": lambda path: table.write(path, rows, where),
         "data/accuracy_critical.csv": lambda path: table.write_records(path, critical.COLUMNS, _records(points, critical.COLUMNS), where),

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import catalogue, plan, presets, relativity
-from blackhole_gl.chart import critical, errors, live, measure, page, pareto, pictures, run, sizes, table, validation
+from blackhole_gl.chart import critical, errors, finest, live, measure, page, pareto, pictures, run, sizes, table, validation
 from blackhole_gl.chart.methods import Method, exact_for, sensible
 from blackhole_gl.chart.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
 from blackhole_gl.chart.survey import own_twin
@@ -176,6 +176,14 @@ def test_validation_of_s1_holds(renderer: Renderer) -> None:
     assert found.deflections[-1].by_model["post_newtonian"] / found.deflections[-1].weak == pytest.approx(1.5, abs=0.01)
 
 
+def test_the_finest_steps_meet_the_bounds_of_issue_3(renderer: Renderer) -> None:
+    measured = finest.finest(renderer, chart_scenes(quick=True))
+    assert {item.scene for item in measured} == set(SHOWN)
+    for item in measured:
+        for name, bound in finest.BOUNDS.items():
+            assert getattr(item, name) <= bound, f"{item.scene}, {item.method}: {name}"
+
+
 def test_near_the_critical_curve_errors_grow(renderer: Renderer, near: ChartScene) -> None:
     curve = [p for p in critical.near_critical(renderer, [near], quick=True) if p.method == "kerr, rk4, mino" and p.setting == 0.05]
     assert len(curve) == 15
@@ -192,7 +200,7 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
     pictures.draw_sizes(tmp_path / "c.png", costs)
     for name in "abc":
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    found = page.Findings([near], rows, points, costs, validation.validate(renderer), {"a0_near": row}, [])
+    found = page.Findings([near], rows, points, costs, validation.validate(renderer), finest.finest(renderer, [near]), {"a0_near": row}, [])
     text = page.page(found, WHERE, "a test")
     assert "nan" not in text and "a machine" in text
     widths: dict[int, int] = {}
