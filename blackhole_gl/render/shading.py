@@ -30,6 +30,9 @@ class ShadePass:
         self._classes: moderngl.Framebuffer | None = None
         self._classes_key: tuple | None = None
         self._frame: moderngl.Framebuffer | None = None
+        self._sky: moderngl.Framebuffer | None = None
+        self._sky_key: tuple | None = None
+        self._sky_kept = False
 
     def draw(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning). The uniform blocks are bound."""
@@ -37,21 +40,46 @@ class ShadePass:
         self._sort_pixels(scene, ray_plan, hit_map)
         self._attach(target)
         ctx = self._ctx
-        self._frame.use()
-        self._frame.depth_mask = False
-        self._frame.color_mask = True, True, True, True
-        self._frame.clear(0.0, 0.0, 0.0, 1.0)
-        ctx.enable(moderngl.DEPTH_TEST | moderngl.BLEND)
-        # Front to back: what is drawn later shows by the share that what was drawn before lets through.
-        ctx.blend_func = moderngl.DST_ALPHA, moderngl.ONE, moderngl.ZERO, moderngl.SRC_ALPHA
+        ctx.enable(moderngl.DEPTH_TEST)
+        self._lay_sky(scene, ray_plan, hit_map, target)
         if ray_plan.orders:
+            self._frame.use()
+            ctx.enable(moderngl.BLEND)
+            ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
             triangle = self._prepared("shade_disk.frag", scene, ray_plan, hit_map)
             self._draw_classes(triangle, "<", 0.7)
             self._draw_classes(triangle, ">", 0.3)
-        if scene.sky.enabled:
-            self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map), "<", 0.5)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.depth_func = "<"
+
+    def _lay_sky(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
+        """The sky into the target. It does not depend on time: where the same one is asked for again it is kept, and copied from then on."""
+        if not scene.sky.enabled:
+            self._clear(self._frame)
+            return
+        triangle = self._prepared("shade_sky.frag", scene, ray_plan, hit_map)
+        parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
+        key = (id(triangle), self._classes_key, scene.sky, parameters)
+        if key != self._sky_key:
+            self._sky_key, self._sky_kept = key, False
+            self._draw_sky(triangle, self._frame)
+            return
+        if not self._sky_kept:
+            if self._sky is None:
+                self._sky = self._ctx.framebuffer([self._ctx.texture(target.size, 4, dtype="f2")], self._depth)
+            self._draw_sky(triangle, self._sky)
+            self._sky_kept = True
+        self._ctx.copy_framebuffer(target, self._sky)
+
+    def _draw_sky(self, triangle: moderngl.VertexArray, frame: moderngl.Framebuffer) -> None:
+        self._clear(frame)
+        self._draw_classes(triangle, "<", 0.5)
+
+    def _clear(self, frame: moderngl.Framebuffer) -> None:
+        frame.use()
+        frame.depth_mask = False
+        frame.color_mask = True, True, True, True
+        frame.clear(0.0, 0.0, 0.0, 1.0)
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -97,10 +125,13 @@ class ShadePass:
             self._frame = self._ctx.framebuffer([picture], self._depth)
 
     def _release_classes(self) -> None:
-        for item in (self._frame, self._classes, self._depth):
+        if self._sky is not None:
+            self._sky.color_attachments[0].release()
+        for item in (self._sky, self._frame, self._classes, self._depth):
             if item is not None:
                 item.release()
-        self._frame, self._classes, self._depth, self._classes_key = None, None, None, None
+        self._sky, self._frame, self._classes, self._depth = None, None, None, None
+        self._classes_key, self._sky_key, self._sky_kept = None, None, False
 
     def _update_profile(self, scene: Scene) -> None:
         inner, outer = plan.effective_disk_radii(scene)
