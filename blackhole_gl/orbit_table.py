@@ -27,6 +27,9 @@ LAST_OCTAVE = 40
 """x up to 2^LAST_OCTAVE: from 10⁴ r_s that is 1e-8 rad from straight away from the hole."""
 CELLS = 16
 """Cells in an octave. For a logarithm the cubic is then good to 3e-8."""
+CELL_BITS = 23 - (CELLS.bit_length() - 1)
+"""Bits of a float32 that lie below those that number its cell."""
+FIRST_CELL = (127 + FIRST_OCTAVE) * CELLS
 WIDTH = (LAST_OCTAVE - FIRST_OCTAVE) * CELLS
 
 _NODES = 0.5 * np.cos(np.pi * (2.0 * np.arange(4) + 1.0) / 8.0)  # Chebyshev's, on −½…½
@@ -42,20 +45,16 @@ def edge_tangent(distance: float) -> float:
 def coordinate_factors(distance: float) -> tuple[float, float]:
     """What turns L, a ray's angular momentum in M at E = 1, and cos ψ into 1 + x at `distance` (r_s, may be inf).
 
-    1 + x = first · L/(1 + cos ψ) = second · (1 − cos ψ)/L; the second is 0 at infinity, where ψ is 0.
+    1 + x = first · L/(1 + cos ψ) = second · (1 − cos ψ)/L; the second is 0 at infinity, where ψ is 0; both are where there is no such camera.
     """
+    if distance <= 1.0:
+        return 0.0, 0.0
     if math.isinf(distance):
         return 1.0 / CRITICAL_IMPACT, 0.0
     u = 1.0 / distance
     sine_per_momentum = 0.5 * u * math.sqrt(1.0 - u)
     tangent = edge_tangent(distance)
     return sine_per_momentum / tangent, 1.0 / (sine_per_momentum * tangent)
-
-
-def cell_bits() -> tuple[int, int]:
-    """How many bits of a float32 lie below those that number its cell, and the number of the table's first cell."""
-    below = 23 - (CELLS.bit_length() - 1)
-    return below, (127 + FIRST_OCTAVE) * CELLS
 
 
 def table(distance: float) -> Array:

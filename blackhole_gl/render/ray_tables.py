@@ -33,8 +33,6 @@ class RayTables:
             return
         self._update(scene.camera.distance)
         program["orbit_table"].value = UNIT
-        program["orbit_factors"].value = orbit_table.coordinate_factors(scene.camera.distance)
-        program["orbit_cells"].value = orbit_table.cell_bits()
         self._orbit.use(UNIT)
 
     def release(self) -> None:

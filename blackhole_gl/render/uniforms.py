@@ -11,7 +11,7 @@ from typing import Mapping
 
 import numpy as np
 
-from .. import observer, plan, relativity, shear
+from .. import observer, orbit_table, plan, relativity, shear
 from ..glsl.blocks import Block
 from ..scene import Scene, fields
 
@@ -25,6 +25,7 @@ RAY_BLOCK = Block(
         ("camera_e_phi", "vec4"),
         ("picture_size", "vec2"),  # pixels of the whole picture
         ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+        ("orbit_factors", "vec2"),  # from angular momentum to the coordinate of orbit_table.py
         ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
         ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
         ("camera_w", "float"),  # M/r, 0 at infinity
@@ -80,6 +81,7 @@ def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offs
         camera_e_phi=(*seen.e_phi, 0.0),
         picture_size=size,
         picture_offset=offset,
+        orbit_factors=orbit_table.coordinate_factors(scene.camera.distance),
         hole_w_factors=(2.0 * r_plus, 2.0 * float(relativity.inner_horizon_radius(spin))),
         picture_scale=half_height / size[1],
         camera_w=seen.w,
@@ -118,7 +120,7 @@ def scene_values(scene: Scene) -> dict[str, object]:
 
 def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0}
+    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
     for key, item in fields().items():
         name = item.glsl_name.upper()
         if item.kind == "switch":

@@ -25,14 +25,14 @@ vec2 orbit_from_centre(vec2 turn, float kappa) {
     return vec2(doubled, sqrt(rate2) * slope * below);
 }
 
-// u after φ on an orbit that starts with (u, du/dφ) = `start`; `centre` is orbit_from_centre at φ.
-float orbit_on(vec2 start, vec2 centre, float kappa) {
+// 1/u as (numerator, denominator), after φ on an orbit that starts with (u, du/dφ) = `start`; `centre` is orbit_from_centre at φ.
+vec2 orbit_on(vec2 start, vec2 centre, float kappa) {
     float below = 1.0 - start.x * centre.x;
     float above = start.x + centre.x * (start.x * (start.x - 2.0) + 2.0 * kappa * centre.x) + 2.0 * start.y * centre.y;
-    return above / (below * below);
+    return vec2(below * below, above);
 }
 
-// The same with its rate.
+// (u, du/dφ) there.
 vec2 orbit_state_on(vec2 start, vec2 centre, float kappa) {
     float below = 1.0 / (1.0 - start.x * centre.x);
     float bend = 2.0 * kappa * centre.x;
@@ -42,7 +42,7 @@ vec2 orbit_state_on(vec2 start, vec2 centre, float kappa) {
     return vec2(u, (above_rate * below + 2.0 * start.x * centre.y * u) * below);
 }
 
-// u at φ before the orbit's end: at infinity, or in r = 0.
-float orbit_before_end(bool escapes, vec2 centre, float kappa, float root_kappa) {
-    return escapes ? 2.0 * root_kappa * (root_kappa * centre.x * centre.x + centre.y) : 1.0 / centre.x;
+// 1/u as (numerator, denominator), at φ before the orbit's end: at infinity, or in r = 0.
+vec2 orbit_before_end(bool escapes, vec2 centre, float kappa, float root_kappa) {
+    return escapes ? vec2(1.0, 2.0 * root_kappa * (root_kappa * centre.x * centre.x + centre.y)) : vec2(centre.x, 1.0);
 }

@@ -13,20 +13,22 @@ twin = "schwarzschild"
 #include "common/orbit_from_centre.glsl"
 
 uniform sampler2D orbit_table;  // blackhole_gl/orbit_table.py
-uniform vec2 orbit_factors;     // from angular momentum to the table's coordinate
-uniform ivec2 orbit_cells;      // of the table: bits of a float that lie below its cell, number of the first cell
 
 // The angle swept to the ray's end; `ratio` = tan(ψ/2)/tan(ψ_c/2) is above 1 for a ray that escapes.
 float swept_angle(float ratio) {
     float x = clamp(abs(ratio - 1.0), 5.9604645e-8, ratio > 1.0 ? 1e12 : 0.99999994);
     int bits = floatBitsToInt(x);
-    int cell = bits >> orbit_cells.x;
-    float t = float(bits - (cell << orbit_cells.x)) / float(1 << orbit_cells.x) - 0.5;
-    vec4 cubic = texelFetch(orbit_table, ivec2(cell - orbit_cells.y, ratio > 1.0 ? 1 : 0), 0);
+    int cell = bits >> ORBIT_CELL_BITS;
+    float t = float(bits - (cell << ORBIT_CELL_BITS)) / float(1 << ORBIT_CELL_BITS) - 0.5;
+    vec4 cubic = texelFetch(orbit_table, ivec2(cell - ORBIT_FIRST_CELL, ratio > 1.0 ? 1 : 0), 0);
     return cubic.x + t * (cubic.y + t * (cubic.z + t * cubic.w));
 }
 
 #if ORDERS > 0
+void add_kept(bool there, vec2 radius, vec2 node, inout Hits hits) {
+    if (there && radius.y > 0.0 && radius.y * crossing_r_min < radius.x) add_crossing(hits, (radius.x / radius.y) * node);
+}
+
 // The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets z = 0 first. The first is reached from the camera, the last from the
 // ray's end, which holds all digits however near the critical curve; those between from the camera by quarter turns: the longer
 // the way, the nearer orbit_on comes to 0/0 for a camera close to the horizon.
@@ -42,7 +44,7 @@ void add_crossings(RayStart start, vec3 across, vec2 end, float swept, bool esca
     bool past = rest.y > 0.0;
     if (!past) rest = -rest;
     int count = tilt > 0.0 ? half_turns + (past ? 1 : 0) : 0;
-    float last = orbit_before_end(escapes, orbit_from_centre(rest, kappa), kappa, root_kappa);
+    vec2 last = orbit_before_end(escapes, orbit_from_centre(rest, kappa), kappa, root_kappa);
 
     bool behind = first.x < 0.0;
     vec2 quarter_turn = orbit_from_centre(vec2(0.0, 1.0), kappa);
@@ -51,20 +53,15 @@ void add_crossings(RayStart start, vec3 across, vec2 end, float swept, bool esca
     vec2 onward = orbit_from_centre(behind ? vec2(first.y, -first.x) : first, kappa);
     float reach = 0.5 - 0.5 * first.x;
     bool outside = kappa * reach * reach * reach < CENTRE_REACH;
-    vec3 u = vec3(0.0);
-    if (count > 0) u.x = count == 1 && escapes ? last : (outside ? orbit_on(base, onward, kappa) : 0.0);
+    add_kept(count > 0 && (outside || escapes), count == 1 && escapes ? last : orbit_on(base, onward, kappa), node, hits);
 #if ORDERS > 1
     base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
-    if (count > 1) u.y = count == 2 ? last : orbit_on(base, onward, kappa);
+    add_kept(count > 1, count == 2 ? last : orbit_on(base, onward, kappa), -node, hits);
 #endif
 #if ORDERS > 2
     base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
-    if (count > 2) u.z = count == 3 ? last : orbit_on(base, onward, kappa);
+    add_kept(count > 2, count == 3 ? last : orbit_on(base, onward, kappa), node, hits);
 #endif
-    for (int n = 0; n < ORDERS; ++n) {
-        bool kept = u[n] > 0.0 && u[n] * crossing_r_min < 1.0;
-        if (kept) add_crossing(hits, ((n & 1) == 0 ? node : -node) / u[n]);
-    }
 }
 #endif
 
