@@ -74,7 +74,9 @@ def _variants(model: PlugIn) -> list[Method]:
 
 def is_default(method: Method) -> bool:
     """Whether this is its model's first method: the catalogue's first integrator and the model's own step control."""
-    return not method.changes and (not method.integrator or (method.integrator, method.step_control) == (catalogue.keys("integrator")[0], traits(method)["step_control"]))
+    if not method.integrator:
+        return not method.changes
+    return (method.integrator, method.step_control) == (catalogue.keys("integrator")[0], traits(method)["step_control"])
 
 
 def traits(method: Method) -> Mapping[str, Any]:
