@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Mapping, Sequence
 
 import numpy as np
+from PIL import Image
 
 from .. import catalogue
 from ..output.files import write_whole
@@ -18,8 +19,8 @@ from .sizes import Cost
 
 INSTALL_LINE = "pip install 'blackhole-gl[chart]'"
 
-# Okabe & Ito's colours, told apart by everybody.
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8B5A2B", "#F0E442", "#000000", "#777777")
+# Okabe & Ito's colours, told apart by everybody, and four more.
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8B5A2B", "#F0E442", "#000000", "#777777", "#882255", "#44AA99")
 _MARKERS = {"euler": "v", "verlet": "s", "rk4": "o", "bs3": "^", "dopri5": "D", "": "X"}
 _LINES = {"fixed": (0, (1, 1)), "radius": "-", "mino": "-", "curvature": "--", "doubling": "-.", "embedded": (0, (5, 1, 1, 1, 1, 1)), "": "none"}
 QUALITIES = {"L": 0.4, "M": 0.2, "H": 0.1, "U": 0.05}
@@ -157,6 +158,8 @@ def draw_sizes(path: Path, costs: Sequence[Cost]) -> None:
 
 def _save(pyplot, figure, path: Path) -> None:
     data = io.BytesIO()
-    figure.savefig(data, dpi=110, format="png", metadata={"Software": None}, pil_kwargs={"optimize": True})
+    figure.savefig(data, dpi=110, format="png")
     pyplot.close(figure)
-    write_whole(path, data.getvalue())
+    small = io.BytesIO()
+    Image.open(data).convert("RGB").quantize(128).save(small, "PNG", optimize=True)  # a third of the size
+    write_whole(path, small.getvalue())

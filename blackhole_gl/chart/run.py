@@ -50,6 +50,10 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     validation = validate(renderer)
     best = finest(renderer, scenes)
     progress(0.99, "pictures and page")
+    if plan_table is not None:
+        table.write_contract(plan_table, rows, where)
+        for kept in (choice.measurements, choice.choose):  # what is marked is what the new table makes the plan choose
+            kept.cache_clear()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
     found = page.Findings(scenes, rows, points, costs, validation, best, chosen, table.read(outside) if outside.exists() else [])
@@ -64,8 +68,6 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     }
     for name, put in files.items():
         put(out / name)
-    if plan_table is not None:
-        table.write_contract(plan_table, rows, where)
     return [out / name for name in files] + ([plan_table] if plan_table else [])
 
 
