@@ -5,7 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .. import disk_profile, observer, plan
+from .. import disk_profile, observer, plan, star_cells
 from ..resources import assets_dir
 from ..scene import Scene
 from .hit_map import HitMap
@@ -24,7 +24,7 @@ class ShadePass:
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
-        self._tables = {"blackbody_table": _blackbody_table(ctx), "galaxy_band": _galaxy_band(ctx)}
+        self._tables = {"blackbody_table": _blackbody_table(ctx), "galaxy_band": _galaxy_band(ctx), "star_cells": _star_cells(ctx)}
         self._profile_key: tuple | None = None
         self._depth: moderngl.Texture | None = None
         self._classes: moderngl.Framebuffer | None = None
@@ -163,6 +163,13 @@ def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
 
 def _blackbody_table(ctx: moderngl.Context) -> moderngl.Texture:
     return _row(ctx, np.load(assets_dir() / "blackbody.npy"))
+
+
+def _star_cells(ctx: moderngl.Context) -> moderngl.Texture:
+    cells = star_cells.table()
+    texture = ctx.texture((cells.shape[1], cells.shape[0]), 4, cells.tobytes(), dtype="f4")
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
 
 
 def _galaxy_band(ctx: moderngl.Context) -> moderngl.Texture:

@@ -27,7 +27,6 @@ help = "Angular radius of a star where pixels are smaller than that: under high 
 default = true
 help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
 ---*/
-#include "common/noise.glsl"
 #include "common/colour.glsl"
 
 // Stars sit in the cells of four grids on a cube round the world, one star a cell, each grid finer and fainter than the
@@ -38,19 +37,20 @@ help = "Shift the sky's colour and brightness (as the fourth power) by the obser
 // A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
 // light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
 
+uniform sampler2D star_cells;  // blackhole_gl/star_cells.py
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
 
 const vec3 GALAXY_CENTRE = vec3(-0.947063, 0.290589, 0.136495);
 const vec3 GALAXY_POLE = vec3(0.284464, 0.562425, 0.776375);
 const float GALAXY_TEXEL = 6.2831853 / 1024.0;
 const float STAR_MARGIN = 0.16; // of a cell
+const float HAZE_KELVIN = 6200.0;
 const float STAR_UNIT = 4.0e-6; // radiance × sr of a star of flux 1
 
-// A footprint on the sky as the inverse of its covariance in the plane that touches the sphere at `centre`.
+// A footprint on the sky in the plane that touches the sphere at `centre`, as the axes in which it is a circle of radius 1.
 struct SkySpot {
     vec3 centre;
-    vec3 e1, e2;      // orthonormal, perpendicular to centre
-    vec3 metric;      // (C⁻¹)₁₁, (C⁻¹)₁₂, (C⁻¹)₂₂
+    vec3 across, along;
     float area;       // √det C, sr
     float reach;      // longest half-axis, rad
 };
@@ -60,16 +60,19 @@ SkySpot sky_spot(vec3 centre, vec3 right, vec3 up) {
     spot.centre = centre;
     vec3 along = right - centre * dot(right, centre);
     vec3 spare = cross(centre, abs(centre.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0));
-    spot.e1 = normalize(dot(along, along) > 1e-18 ? along : spare);
-    spot.e2 = cross(centre, spot.e1);
-    vec2 a = vec2(dot(right, spot.e1), dot(right, spot.e2));
-    vec2 b = vec2(dot(up, spot.e1), dot(up, spot.e2));
+    vec3 e1 = normalize(dot(along, along) > 1e-18 ? along : spare);
+    vec3 e2 = cross(centre, e1);
+    vec2 a = vec2(dot(right, e1), dot(right, e2));
+    vec2 b = vec2(dot(up, e1), dot(up, e2));
     float least = max(sky_procedural_star_size * sky_procedural_star_size, 1e-13); // float32 directions resolve no less
     vec3 c = vec3(a.x * a.x + b.x * b.x + least, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y + least);
     // det C = (a × b)² + least·(|a|² + |b|²) + least²: no difference of large numbers
     float cross_ab = a.x * b.y - a.y * b.x;
     float det = cross_ab * cross_ab + least * (dot(a, a) + dot(b, b)) + least * least;
-    spot.metric = vec3(c.z, -c.y, c.x) / det;
+    // Half of a root of C⁻¹: where |(across, along)·d| is 1 the star's kernel ends.
+    float root = inversesqrt(c.x);
+    spot.across = (0.5 * root) * e1;
+    spot.along = (0.5 * root * inversesqrt(det)) * (c.x * e2 - c.y * e1);
     spot.area = sqrt(det);
     float half_trace = 0.5 * (c.x + c.z);
     spot.reach = sqrt(half_trace + sqrt(max(half_trace * half_trace - det, 0.0)));
@@ -88,20 +91,6 @@ struct SkyPlace {
     vec2 place;
     float cell_width; // rad × cells across a face
 };
-
-vec3 cube_direction(int face, vec2 place) {
-    vec2 flat_place = place * (abs(place) + 2.0) / 3.0;
-    vec3 turned = vec3((face & 1) == 1 ? -1.0 : 1.0, flat_place);
-    return normalize(face < 2 ? turned : (face < 4 ? turned.zxy : turned.yzx));
-}
-
-// Solid angle of a cell at `place` against the largest there is (1.483 of the one at a face's middle).
-float cube_cell_share(vec2 place) {
-    vec2 p = abs(place);
-    vec2 flat_place = p * (p + 2.0) / 3.0;
-    float square = 1.0 + dot(flat_place, flat_place);
-    return (1.0 + p.x) * (1.0 + p.y) / (1.4831 * square * sqrt(square));
-}
 
 // Angular distance between the nearer two opposite sides of a cell at `place`, times the number of cells across a face.
 float cube_cell_width(vec2 place) {
@@ -123,38 +112,28 @@ SkyPlace sky_place(vec3 d) {
     return SkyPlace(face, place, cube_cell_width(place));
 }
 
-// Light of stars, kept as one number and its temperature: colour is looked up once, at the end.
+// Light of stars, kept as numbers and their temperature: colour is looked up once, at the end.
 struct StarLight {
-    float power;  // radiance × sr of a star of flux 1
-    float heat;   // the same, times K
+    float flux;  // of single stars, in kernels
+    float heat;  // the same, times K
+    float haze;  // of the stars too dense to be seen singly, where the richness is 1, per sr
 };
 
 // Adds one grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3.
-// `richness`: stars per place and steradian of a grid with one cell across a face.
-StarLight add_star_grid(StarLight light, SkySpot spot, SkyPlace at, float cells, float low, float high, float richness) {
+// `row`: where they begin in `star_cells`. `spread`: the footprint over the star's margin in a grid with one cell across a face.
+void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float spread, float cells, int row, float low, float high) {
     float tail = pow(low / high, 4.0 / 3.0);
     float mean_flux = 4.0 * (low - high * tail) / (1.0 - tail);
-    float mean_power = mean_flux * richness * cells * cells;
-    float single = 1.0 - smoothstep(0.8, 1.0, 2.0 * spot.reach * cells / (STAR_MARGIN * at.cell_width));
+    float haze = smoothstep(0.8, 1.0, spread * cells);
 
     vec2 cell = min(floor((at.place * 0.5 + 0.5) * cells), cells - 1.0);
-    uint h = hash_lattice(ivec3(ivec2(cell), at.face), uint(cells));
-    vec2 where = (cell + mix(vec2(STAR_MARGIN), vec2(1.0 - STAR_MARGIN), hash_vec3(h).xy)) / cells * 2.0 - 1.0;
-    vec3 star = cube_direction(at.face, where);
-    vec2 d = vec2(dot(star, spot.e1), dot(star, spot.e2));
-    float distance2 = spot.metric.x * d.x * d.x + 2.0 * spot.metric.y * d.x * d.y + spot.metric.z * d.y * d.y;
-    float fall = max(1.0 - 0.25 * distance2, 0.0); // ∫ fall³ over the disc of radius 2 is π
-
-    vec3 draw = hash_vec3(hash_bits(h + 1u));
-    float exists = step(draw.x, star_richness(star) * cube_cell_share(where));
-    float root = inversesqrt(mix(1.0, tail, draw.y));
-    float flux = low * root * sqrt(root); // the inverse of the count, to the power 3/4
-    float rare = draw.z * draw.z;
-    rare *= rare;
-    float kelvin = 2900.0 + 5500.0 * draw.z + 18000.0 * rare * rare;
-    float power = exists * single * flux * fall * fall * fall / (3.1415927 * spot.area);
-    mean_power *= 1.0 - single;
-    return StarLight(light.power + power + mean_power, light.heat + power * kelvin + mean_power * 6200.0);
+    vec4 star = texelFetch(star_cells, ivec2(cell) + ivec2(at.face * int(cells), row), 0);
+    vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
+    float fall = max(1.0 - dot(d, d), 0.0); // ∫ fall³ over the disc of radius 2 is π
+    float flux = (star.w - haze * star.w) * fall * fall * fall;
+    light.flux += flux;
+    light.heat += flux * (32.0 * float(floatBitsToInt(star.w) & 1023));
+    light.haze += haze * (mean_flux * cells * cells);
 }
 
 vec3 galaxy_radiance(SkySpot spot) {
@@ -174,15 +153,18 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
 #endif
     SkySpot spot = sky_spot(direction, right, up);
     SkyPlace at = sky_place(direction);
+    float spread = 2.0 * spot.reach / (STAR_MARGIN * at.cell_width);
+    StarLight stars = StarLight(0.0, 0.0, 0.0);
+    add_star_grid(stars, spot, at, spread, 7.0, 0, 1.0, 20.0);
+    add_star_grid(stars, spot, at, spread, 16.0, 7, 0.2536, 1.0);
+    add_star_grid(stars, spot, at, spread, 34.0, 23, 0.0783, 0.2536);
+    add_star_grid(stars, spot, at, spread, 60.0, 57, 0.0309, 0.0783);
     // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
-    float richness = star_richness(direction) * 0.5625 / 1.4831;
-    StarLight stars = StarLight(0.0, 0.0);
-    stars = add_star_grid(stars, spot, at, 7.0, 1.0, 20.0, richness);
-    stars = add_star_grid(stars, spot, at, 16.0, 0.2536, 1.0, richness);
-    stars = add_star_grid(stars, spot, at, 34.0, 0.0783, 0.2536, richness);
-    stars = add_star_grid(stars, spot, at, 60.0, 0.0309, 0.0783, richness);
-    vec3 colour = blackbody_colour(stars.heat / max(stars.power, 1e-20) * energy);
+    float haze = stars.haze * star_richness(direction) * (0.5625 / 1.4831);
+    float kernel = 1.0 / (3.1415927 * spot.area);
+    float power = stars.flux * kernel + haze;
+    vec3 colour = blackbody_colour((stars.heat * kernel + haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
     vec3 galaxy = galaxy_radiance(spot) * (0.06 * sky_procedural_galaxy_brightness);
     float boost = energy * energy;
-    return (colour * (stars.power * STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
+    return (colour * (power * STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
 }

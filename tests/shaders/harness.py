@@ -12,6 +12,7 @@ from typing import Any, Mapping, Sequence
 import moderngl
 import numpy as np
 
+from blackhole_gl import star_cells
 from blackhole_gl.glsl.compose import compose
 from blackhole_gl.resources import assets_dir, shaders_dir
 
@@ -99,6 +100,7 @@ class Piece:
         self.set(**uniforms)
         self.table("blackbody_table", np.load(assets_dir() / "blackbody.npy")[None])
         self.table("galaxy_band", (np.load(assets_dir() / "galaxy_band.npz")["root"] / 255.0), mipmap=True)
+        self.table("star_cells", star_cells.table(), nearest=True)
         self.table("temperature_profile", np.ones((1, 64, 1)))
 
     def set(self, **uniforms: Any) -> Piece:
