@@ -43,8 +43,13 @@ vec3 tone_curve(vec3 light) {
 }
 #endif
 
+// sRGB code of light^(1/γ). With s = light^(1/(2.4 γ)) the curve is 1.055 s − 0.055, and its straight toe 12.92 s^2.4: a polynomial
+// in √s there, good to 3e-6, spares three powers.
 vec3 srgb_code(vec3 light) {
-    return mix(12.92 * light, 1.055 * pow(max(light, 1e-5), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
+    vec3 s = pow(max(light, 1e-12), vec3(1.0 / (2.4 * post_gamma)));
+    vec3 root = sqrt(s);
+    vec3 toe = 12.92 * s * s * (0.03652286 + root * (1.28840049 - 0.4598776 * root));
+    return mix(toe, 1.055 * s - 0.055, step(0.0904934, s));
 }
 
 // Noise of triangular distribution, −1…1, for each channel; a fixed function of the pixel.
@@ -60,7 +65,7 @@ void main() {
     light += post_bloom_intensity * textureLod(glow, pixel * target_texel, 0.0).rgb;
 #endif
     light = clamp(tone_curve(light * exp2(post_exposure)), 0.0, 1.0);
-    vec3 code = srgb_code(pow(light, vec3(1.0 / post_gamma)));
+    vec3 code = srgb_code(light);
 #if POST_DITHER
     // One grey level at most, less near black and white, so that both stay clean.
     code += dither_noise(uvec2(pixel)) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));

@@ -136,13 +136,24 @@ void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float sprea
     light.haze += haze * (mean_flux * cells * cells);
 }
 
+// The angle of (x, y) in turns, −½…½, to 2e-6: a fraction of a texel, for half of what the driver's atan takes.
+float turns(float x, float y) {
+    vec2 size = abs(vec2(x, y));
+    float slope = min(size.x, size.y) / max(max(size.x, size.y), 1e-20);
+    float s = slope * slope;
+    float angle = slope * (0.15913366 + s * (-0.05256959 + s * (0.02867300 + s * (-0.01355268 + s * 0.00331740))));
+    angle = size.y > size.x ? 0.25 - angle : angle;
+    angle = x < 0.0 ? 0.5 - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
 vec3 galaxy_radiance(SkySpot spot) {
     float height = dot(spot.centre, GALAXY_POLE);
-    float longitude = atan(dot(spot.centre, cross(GALAXY_POLE, GALAXY_CENTRE)), dot(spot.centre, GALAXY_CENTRE));
+    float longitude = turns(dot(spot.centre, GALAXY_CENTRE), dot(spot.centre, cross(GALAXY_POLE, GALAXY_CENTRE)));
     float level = log2(max(spot.reach / GALAXY_TEXEL, 1.0));
     // A very wide footprint holds the sky beside the band too, which is as large as the band's map and dark.
     float whole_sky = smoothstep(0.1, 0.6, spot.reach);
-    vec2 place = vec2(longitude / 6.2831853 + 0.5, 0.5 + height * (1.0 - whole_sky));
+    vec2 place = vec2(longitude + 0.5, 0.5 + height * (1.0 - whole_sky));
     vec3 root = textureLod(galaxy_band, place, level).rgb;
     return root * root * (1.0 - 0.5 * whole_sky);
 }
