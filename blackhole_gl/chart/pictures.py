@@ -161,5 +161,5 @@ def _save(pyplot, figure, path: Path) -> None:
     figure.savefig(data, dpi=110, format="png")
     pyplot.close(figure)
     small = io.BytesIO()
-    Image.open(data).convert("RGB").quantize(128).save(small, "PNG", optimize=True)  # a third of the size
+    Image.open(data).convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE).save(small, "PNG", optimize=True)  # a third of the size
     write_whole(path, small.getvalue())
