@@ -77,7 +77,14 @@ def scenes(scene: Scene) -> dict[str, Scene]:
     }
 
 
-def measure(renderer: Renderer, scene: Scene, sizes: Iterable[tuple[int, int]] = SIZES, rounds: int = 5, euler: bool = True, progress: Callable[[float], None] | None = None) -> Bench:
+def measure(
+    renderer: Renderer,
+    scene: Scene,
+    sizes: Iterable[tuple[int, int]] = SIZES,
+    rounds: int = 5,
+    euler: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> Bench:
     """Runs the bench on `renderer`.
 
     Args:
@@ -118,9 +125,10 @@ def _rows(renderer: Renderer, compared: Mapping[str, Scene], motion: str, size: 
     for counted in range(-1, rounds):
         for name, scene in compared.items():
             frame = _moved(scene, counted + 2) if motion == "moving" else scene
-            renderer.render(frame, 0.0, size)
+            for warm in range(1 if motion == "moving" else 3):  # the hit map, and the sky that is kept from the second frame on
+                renderer.render(frame, 0.01 * warm, size)
             if motion == "moving":
-                renderer.hit_map.forget()
+                frame = _moved(frame, 1)
             renderer.ctx.finish()
             start = clock.process_time()
             report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True)
@@ -137,4 +145,5 @@ def _rows(renderer: Renderer, compared: Mapping[str, Scene], motion: str, size: 
 
 def _moved(scene: Scene, frames: int) -> Scene:
     angle = scene.camera.inclination_deg
-    return scene.with_values({"camera.azimuth_deg": scene.camera.azimuth_deg + TURN_DEG * frames, "camera.inclination_deg": min(angle + TURN_DEG * frames, 180.0)})
+    turned = {"camera.azimuth_deg": scene.camera.azimuth_deg + TURN_DEG * frames, "camera.inclination_deg": min(angle + TURN_DEG * frames, 180.0)}
+    return scene.with_values(turned)
