@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
+import pytest
 from typer.testing import CliRunner
 
-from blackhole_gl import bench, presets
-from blackhole_gl.cli import app
+from blackhole_gl import bench, cli, presets
 from blackhole_gl.render.frame import Renderer
 
 
@@ -20,9 +21,10 @@ def test_still_frames_keep_the_hit_map_and_moving_ones_trace(renderer: Renderer)
     assert found.euler_ms is None and bench.text(found).count("\n| ") == 1 + len(found.rows) + 1
 
 
-def test_the_command_prints_a_table_and_writes_json(tmp_path) -> None:
+def test_the_command_prints_a_table_and_writes_json(tmp_path: Path, renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cli, "_renderer", lambda backend: renderer)  # a second context would take the place of the tests' own
     out = tmp_path / "bench.json"
-    result = CliRunner().invoke(app, ["bench", "--size", "32x18", "--rounds", "1", "--no-euler", "--json", str(out)])
+    result = CliRunner().invoke(cli.app, ["bench", "--size", "32x18", "--rounds", "1", "--no-euler", "--json", str(out)])
     assert result.exit_code == 0, result.output
     assert "| 32×18 | moving | table | schwarzschild_table |" in result.output
     assert len(json.loads(out.read_text(encoding="utf-8"))["rows"]) == 16
