@@ -110,7 +110,8 @@ class Live:
 
     def _next_bit(self, renderer: Renderer) -> None:
         try:
-            if next(self._bits, "over") == "over":
+            # The last bit of a point ends the generator, and may leave nothing to go on with.
+            if next(self._bits, "over") == "over" and self._left:
                 self._bits = self._measure(renderer, *self._left[0], self._truth.result())
         except ValueError:  # a camera where this model has no observer
             self._left = [item for item in self._left if item[0] != self._left[0][0]]
