@@ -103,21 +103,16 @@ class LiveChart:
         imgui.text_colored(theme.QUIET, text)
 
     def _plot(self, state: WindowState) -> None:
-        if self.fit_next:
-            implot.set_next_axes_to_fit()
+        shown = [point for point in self.points if point.pixels > 0.0]  # false for NaN too
+        if self.fit_next and shown:
+            _fit(shown)
             self.fit_next = False
-        implot.push_style_var(implot.StyleVar_.fit_padding.value, (0.06, 0.06))
-        self._curves(state)
-        implot.pop_style_var()
-
-    def _curves(self, state: WindowState) -> None:
         if not implot.begin_plot("##methods", (-1.0, -1.0), implot.Flags_.no_mouse_text.value):
             return
         implot.setup_axes("frame time / flat frame", "error at 99 % of the rays [pixels at 1080p]")
         for axis in (implot.ImAxis_.x1, implot.ImAxis_.y1):
             implot.setup_axis_scale(axis.value, implot.Scale_.log10.value)
         implot.setup_legend(implot.Location_.east.value, implot.LegendFlags_.outside.value)
-        shown = [point for point in self.points if point.pixels > 0.0]  # false for NaN too
         for model in dict.fromkeys(point.method.model for point in shown):
             _plot_model(model, shown)
         if shown:
@@ -132,6 +127,12 @@ class LiveChart:
             if imgui.is_mouse_clicked(imgui.MouseButton_.left):
                 use(near, state)
         implot.end_plot()
+
+
+def _fit(points: list[LivePoint]) -> None:
+    """The next plot's axes hold `points` with room around them; implot's own fit pads logarithms as if they were lengths."""
+    costs, errors = [point.cost for point in points], [*(point.pixels for point in points), _HALF_A_PIXEL]
+    implot.set_next_axes_limits(min(costs) / 1.4, max(costs) * 1.4, min(errors) / 3.0, max(errors) * 3.0, implot.Cond_.always.value)
 
 
 def use(point: LivePoint, state: WindowState) -> None:
