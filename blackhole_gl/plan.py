@@ -109,6 +109,30 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     )
 
 
+def unfit_options(key: str, scene: Scene) -> dict[str, str]:
+    """The integrators or step controls (by `key`) that do not go with the rest of how `scene` is traced, each with the reason.
+
+    Empty for other keys, and for a scene whose parts do not fit as they are: any change may then be the right one.
+    """
+    if key not in ("rays.integrator", "rays.step_control"):
+        return {}
+    try:
+        made = plan(scene)
+    except SceneError:
+        return {}
+    found = {}
+    for option in catalogue.keys(key.removeprefix("rays.")):
+        if made.integrator is None:
+            reasons = [f"{made.model.key} goes from pixel to hits at once and takes no steps"]
+        elif key == "rays.integrator":
+            reasons = catalogue.reasons_against(made.model.key, option, made.step_control.key)
+        else:
+            reasons = catalogue.reasons_against(made.model.key, made.integrator.key, option)
+        if reasons:
+            found[option] = "; ".join(reasons)
+    return found
+
+
 def _visible_orders(scene: Scene) -> int:
     """Orders of crossings that can be seen: 0 without a disk; of the others, those whose ring is not too thin for one grey level.
 

@@ -7,7 +7,7 @@ from typing import Mapping, Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from .. import catalogue, presets
+from .. import catalogue, plan, presets
 from ..fields import Field
 from ..scene import Scene, fields
 from . import preset_switch, scene_files, theme, widgets
@@ -128,7 +128,7 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
         if plug_in != group:
             group = plug_in
             _subheading(group)
-        widgets.row(item, state.scene.get(item.key), state.change)
+        widgets.row(item, state.scene.get(item.key), state.change, plan.unfit_options(item.key, state.scene))
     imgui.end_table()
     return True
 

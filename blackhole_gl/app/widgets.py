@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import MappingProxyType
 from typing import Callable, Mapping
 
 from imgui_bundle import hello_imgui, imgui
@@ -31,15 +32,15 @@ def departs(item: Field, value: Value) -> bool:
     return item.physical is not None and value != item.physical
 
 
-def row(item: Field, value: Value, change: Change) -> None:
-    """Draws the row of `item` in a table of two columns; an edit calls `change`."""
+def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = MappingProxyType({})) -> None:
+    """Draws the row of `item` in a table of two columns; an edit calls `change`. `unfit`: options that do not fit now, and why."""
     imgui.table_next_row()
     imgui.table_next_column()
     _mark(item, value, change)
     _label(item, value, change)
     imgui.table_next_column()
     imgui.set_next_item_width(-1.0)
-    edited = _WIDGETS[item.kind](item, value)
+    edited = _choice(item, value, unfit) if item.kind == "choice" else _WIDGETS[item.kind](item, value)
     _tooltip(item)
     _menu(item, f"widget {item.key}", change)
     if edited is not None and edited != value:
@@ -168,19 +169,20 @@ def _switch(item: Field, value: bool) -> bool | None:
     return new if edited else None
 
 
-def _choice(item: Field, value: str) -> str | None:
+def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     plug_ins = catalogue.plug_ins(_SLOT_OF_CHOICE[item.key]) if item.key in _SLOT_OF_CHOICE else {}
     names = {option: plug_ins[option].label if option in plug_ins else option.replace("_", " ") for option in item.options}
     picked = None
     if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
         for option, name in names.items():
-            clicked, _ = imgui.selectable(f"{name}##{option}", option == value)
+            grey = imgui.SelectableFlags_.disabled.value if option in unfit else 0
+            clicked, _ = imgui.selectable(f"{name}##{option}", option == value, grey)
             if clicked:
                 picked = option
-            if option in plug_ins:
-                imgui.set_item_tooltip(plug_ins[option].summary)
+            if option in plug_ins and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip.value | imgui.HoveredFlags_.allow_when_disabled.value):
+                imgui.set_tooltip(unfit.get(option, plug_ins[option].summary))
         imgui.end_combo()
     return picked
 
 
-_WIDGETS = {"float": _slider, "int": _whole_slider, "switch": _switch, "choice": _choice}
+_WIDGETS = {"float": _slider, "int": _whole_slider, "switch": _switch}

@@ -93,3 +93,12 @@ def test_the_outer_edge_is_never_inside_the_inner_one():
 def test_far_rays_are_finished_in_closed_form_farther_out_where_gravity_is_stronger():
     assert plan.march_bound(Scene()) == plan.MARCH_BOUND
     assert plan.march_bound(Scene().with_values({"hole.gravity_strength": 4.0})) == 4.0 * plan.MARCH_BOUND
+
+
+def test_options_that_do_not_fit_are_named_with_the_reason():
+    kerr = Scene().with_values(STATED)
+    controls = plan.unfit_options("rays.step_control", kerr)
+    assert "marches in mino" in controls["radius"] and "mino" not in controls
+    assert "error estimate" in controls["embedded"]
+    assert set(plan.unfit_options("rays.integrator", kerr.with_values({"rays.model": "flat"}))) == set(catalogue.keys("integrator"))
+    assert plan.unfit_options("rays.model", kerr) == {}
