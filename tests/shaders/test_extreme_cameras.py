@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -26,12 +28,14 @@ CAMERAS = {
 }
 
 
-@pytest.mark.parametrize("model", ["kerr", "schwarzschild", "kerr_like", "flat"])
-@pytest.mark.parametrize("camera", CAMERAS)
+def outside_the_horizon(camera: str, model: str) -> bool:
+    """The others are the subject of test_a_camera_inside_the_horizon_is_refused."""
+    return model not in ("schwarzschild", "kerr_like") or CAMERAS[camera].get("camera.distance", 20.0) > 1.0
+
+
+@pytest.mark.parametrize("camera, model", [pair for pair in product(CAMERAS, ("kerr", "schwarzschild", "kerr_like", "flat")) if outside_the_horizon(*pair)])
 def test_every_ray_has_a_fate(renderer: Renderer, camera: str, model: str) -> None:
     changes = {"rays.model": model, **CAMERAS[camera]}
-    if model in ("schwarzschild", "kerr_like") and changes.get("camera.distance", 20.0) <= 1.0:
-        pytest.skip("inside this model's horizon; see test_a_camera_inside_the_horizon_is_refused")
     scene = presets.load(["kerr"], changes)
     renderer.render(scene, 1.0, (48, 27))
     hits = renderer.hits()
