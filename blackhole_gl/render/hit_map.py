@@ -47,6 +47,8 @@ class HitMap:
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
         self.tables = RayTables(ctx)
+        self._pool: list[moderngl.Texture] = []
+        self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
 
@@ -116,14 +118,18 @@ class HitMap:
         return HitArrays(packed & 3, packed >> 2, data[0][..., :3], data[1][..., 2], crossing)
 
     def _make_targets(self, size: tuple[int, int], orders: int) -> None:
+        """Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""
         count = 1 + min(orders, 2)
-        if self._target is not None and self._target.size == size and len(self.textures) == count:
-            return
-        self._release_targets()
-        self.textures = [self._ctx.texture(size, 4, dtype="f4") for _ in range(count)]
-        for texture in self.textures:
+        if self._pool and self._pool[0].size != size:
+            self._release_targets()
+        while len(self._pool) < count:
+            texture = self._ctx.texture(size, 4, dtype="f4")
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._target = self._ctx.framebuffer(self.textures)
+            self._pool.append(texture)
+        self.textures = self._pool[:count]
+        if count not in self._targets:
+            self._targets[count] = self._ctx.framebuffer(self.textures)
+        self._target = self._targets[count]
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -131,8 +137,6 @@ class HitMap:
         self._release_targets()
 
     def _release_targets(self) -> None:
-        if self._target is not None:
-            self._target.release()
-            for texture in self.textures:
-                texture.release()
-        self._target, self.textures, self._key = None, [], None
+        for kept in (*self._targets.values(), *self._pool):
+            kept.release()
+        self._targets, self._pool, self._target, self.textures, self._key = {}, [], None, [], None

@@ -176,7 +176,7 @@ def test_validation_of_s1_holds(renderer: Renderer) -> None:
     assert found.deflections[-1].by_model["post_newtonian"] / found.deflections[-1].weak == pytest.approx(1.5, abs=0.01)
 
 
-def test_the_finest_steps_meet_the_bounds_of_issue_3(renderer: Renderer) -> None:
+def test_the_finest_steps_meet_their_bounds(renderer: Renderer) -> None:
     measured = finest.finest(renderer, chart_scenes(quick=True))
     assert {item.scene for item in measured} == set(SHOWN)
     for item in measured:
