@@ -1,4 +1,8 @@
-"""The trace pass and what it leaves: where every pixel's light comes from. Kept while nothing it depends on has changed."""
+"""The trace pass and what it leaves: where every pixel's light comes from. Kept while nothing it depends on has changed.
+
+On the GPU hits are in the frame of the camera's meridian (the world turned about the spin axis so that the camera's azimuth is 0): a camera
+that turns about the axis keeps its map. Whoever reads it turns it back.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +11,7 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
+from ..observer import cos_sin_deg
 from ..plan import RayPlan
 from ..scene import Scene
 from . import uniforms
@@ -51,9 +56,11 @@ class HitMap:
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
+        self._azimuth_deg = 0.0
 
     def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int]) -> bool:
         """Traces `scene` at `size` unless the map holds just that already. The uniform blocks are bound. True when it traced."""
+        self._azimuth_deg = scene.camera.azimuth_deg
         triangle = self._programs.get("trace.frag", scene, ray_plan)
         key = (id(triangle), ray_bytes, scene.hole, tuple(sorted((k, v) for k, v in scene.parameters.items() if k.startswith("rays."))), size, ray_plan.orders)
         if key == self._key:
@@ -84,7 +91,7 @@ class HitMap:
         triangle.program["listed_rays"].value = 0
         rays.use(0)
         self.tables.bind(triangle.program, scene)
-        self._key = None
+        self._key, self._azimuth_deg = None, scene.camera.azimuth_deg
         self._make_targets((width, height), ray_plan.orders)
         self._target.use()
         draw(triangle)
@@ -115,7 +122,13 @@ class HitMap:
         data += [np.zeros((height, width, 4), np.float32)] * (3 - len(data))
         packed = np.rint(data[0][..., 3]).astype(int)
         crossing = np.stack([data[1][..., :2], data[2][..., :2], data[2][..., 2:]], axis=-2)
-        return HitArrays(packed & 3, packed >> 2, data[0][..., :3], data[1][..., 2], crossing)
+        return HitArrays(packed & 3, packed >> 2, self._in_world(data[0][..., :3]), data[1][..., 2], self._in_world(crossing))
+
+    def _in_world(self, vectors: np.ndarray) -> np.ndarray:
+        """Vectors (…, 2 or 3) turned from the camera's meridian to the world, as float32."""
+        c, s = cos_sin_deg(self._azimuth_deg)
+        x, y = vectors[..., 0].astype(float), vectors[..., 1].astype(float)
+        return np.concatenate([np.stack([c * x - s * y, s * x + c * y], axis=-1), vectors[..., 2:]], axis=-1).astype(np.float32)
 
     def _make_targets(self, size: tuple[int, int], orders: int) -> None:
         """Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""

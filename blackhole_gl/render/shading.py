@@ -59,7 +59,7 @@ class ShadePass:
             return
         triangle = self._prepared("shade_sky.frag", scene, ray_plan, hit_map)
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        key = (id(triangle), self._classes_key, scene.sky, parameters)
+        key = (id(triangle), self._classes_key, scene.camera.azimuth_deg, scene.sky, parameters)
         if key != self._sky_key:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(triangle, self._frame)

@@ -20,7 +20,7 @@ RAY_BLOCK = Block(
     0,
     (
         ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
-        ("camera_n", "vec4"),  # from the hole to the camera, world; w: sine of the inclination
+        ("camera_n", "vec4"),  # from the hole to the camera, in the frame of its meridian (x, z); w: sine of the inclination
         ("camera_e_theta", "vec4"),
         ("camera_e_phi", "vec4"),
         ("picture_size", "vec2"),  # pixels of the whole picture
@@ -44,6 +44,7 @@ SHADE_BLOCK = Block(
     (
         ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
         ("shear_seed", "vec4"),
+        ("camera_heading", "vec2"),  # (cos, sin) of the camera's azimuth: turns hits from its meridian's frame to the world
         ("disk_r_in", "float"),  # r_s, as used
         ("disk_r_out", "float"),
         ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
@@ -67,10 +68,13 @@ def blocks() -> tuple[Block, ...]:
 def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
     """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64.
 
+    Every space-time here is symmetric about the spin axis: rays are those of a camera at azimuth 0, whatever its azimuth is, so that a
+    camera turned about the axis keeps its hits.
+
     Raises:
         ValueError: the camera is inside the horizon.
     """
-    seen = observer.observe(scene)
+    seen = observer.observe(scene.with_values({"camera.azimuth_deg": 0.0}))
     spin = observer.horizon_spin(scene)
     half_height = 0.5 * scene.camera.field_m if seen.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
     r_plus = float(relativity.horizon_radius(spin))
@@ -102,6 +106,7 @@ def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
     return dict(
         shear_phase=(*ages, *weights),
         shear_seed=(*seeds, 0.0, 0.0),
+        camera_heading=observer.cos_sin_deg(scene.camera.azimuth_deg),
         disk_r_in=inner,
         disk_r_out=outer,
         disk_spin_sign=float(relativity.orbit_sense(spin, scene.disk.orbit)),

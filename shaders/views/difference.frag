@@ -26,7 +26,7 @@ Hits fetch_exact(ivec2 pixel) {
 #if ORDERS > 1
     t2 = texelFetch(exact2, pixel, 0);
 #endif
-    return unpacked_hits(texelFetch(exact0, pixel, 0), t1, t2);
+    return in_world(unpacked_hits(texelFetch(exact0, pixel, 0), t1, t2));
 }
 
 // `slip` in the plane as steps from pixel to pixel: slip = x·right + y·up. Where a picture is folded (`right` and `up` nearly along one

@@ -67,6 +67,7 @@ UNIFORMS: dict[str, tuple[str, Any]] = {
     "shear_phase": ("vec4", (0.0, 48.0, 0.0, 1.0)),
     "shear_seed": ("vec4", (1.0, 2.0, 0.0, 0.0)),
     "observer_map": ("mat4", tuple(np.eye(4).ravel())),
+    "camera_heading": ("vec2", (1.0, 0.0)),
     "camera_n": ("vec4", (1.0, 0.0, 0.0, 1.0)),
     "camera_e_theta": ("vec4", (0.0, 0.0, -1.0, 0.0)),
     "camera_e_phi": ("vec4", (0.0, 1.0, 0.0, 0.0)),
