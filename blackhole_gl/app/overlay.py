@@ -33,8 +33,8 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
         imgui.text_colored(theme.QUIET, f"{picture.rays.steps:.1f} steps a ray")
         colour = theme.ERROR if picture.rays.unresolved else theme.QUIET
         imgui.text_colored(colour, f"{picture.rays.unresolved} unresolved rays")
-    if picture.divisor > 1:
-        imgui.text_colored(theme.QUIET, f"1/{picture.divisor} of the pixels each way while moving")
+    if picture.scale < 1.0:
+        imgui.text_colored(theme.QUIET, f"{picture.scale:.2f} of full resolution")
     imgui.end()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import time as clock
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,19 +10,18 @@ import moderngl
 import numpy as np
 
 from ..scene import Scene
+from .resolution import Resolution
 
-# A picture that takes longer is drawn coarser until it rests: (milliseconds, the coarsest divisor). Under a moving camera fluency comes
-# first; a disk that turns before a still camera is looked at, and software renderers would otherwise never show it sharp.
-_BUDGET = {True: (60.0, 4), False: (150.0, 2)}
-
+# The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
 _VERTEX = """#version 330 core
-void main() { gl_Position = vec4(vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) * 2.0 - 1.0, 0.0, 1.0); }
+out vec2 place;
+void main() { place = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2); gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0); }
 """
 _FRAGMENT = """#version 330 core
 uniform sampler2D picture;
-uniform vec4 area;
+in vec2 place;
 out vec4 colour;
-void main() { colour = vec4(texture(picture, (gl_FragCoord.xy - area.xy) / area.zw).rgb, 1.0); }
+void main() { colour = texture(picture, place); }
 """
 
 
@@ -47,9 +46,9 @@ class Area:
         """Whether it holds no pixel."""
         return self.width < 1 or self.height < 1
 
-    def coarsened(self, divisor: int) -> tuple[int, int]:
-        """(width, height) of a picture with `divisor` times fewer pixels each way."""
-        return math.ceil(self.width / divisor), math.ceil(self.height / divisor)
+    def scaled(self, scale: float) -> tuple[int, int]:
+        """(width, height) of a picture with `scale` times as many pixels each way, at least one."""
+        return max(round(self.width * scale), 1), max(round(self.height * scale), 1)
 
 
 @dataclass(frozen=True)
@@ -71,6 +70,11 @@ class Picture:
     Args:
         gl: the window's context.
         renderer: what makes pictures; see ``render.frame.Renderer``.
+
+    Attributes:
+        report: of the last picture rendered, a ``render.frame.FrameReport``; None before the first.
+        rays: what became of its rays, as of the last `count_rays`.
+        scale: width and height of the last picture over those of its area.
     """
 
     def __init__(self, gl: moderngl.Context, renderer: Any):
@@ -78,15 +82,15 @@ class Picture:
         self.renderer = renderer
         self.report: Any = None
         self.rays: RayFigures | None = None
-        self.divisor = 1
+        self.scale = 1.0
         self._program = gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         self._triangle = gl.vertex_array(self._program, [])
         self._shown: moderngl.Framebuffer | None = None
         self._spare: moderngl.Framebuffer | None = None
         self._made_of: tuple | None = None
-        # What a picture of full size costs. Before the first it is unknown, and a coarse one comes sooner.
-        self._trace_ms = self._shade_ms = math.inf
-        self._divisors: dict[bool, int] = {}
+        self._resolution = Resolution()
+        self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
+        self._took_ms = 0.0
         self._rays_stale = True
 
     def forget(self) -> None:
@@ -98,26 +102,25 @@ class Picture:
 
         Args:
             time: scene time in r_s/c.
-            moving: whether the next frame will differ; a costly picture is then drawn coarser.
+            moving: whether the next frame will differ; a picture too costly for the scene's frame rate is then drawn coarser.
             camera_moving: whether rays have to be traced anew, which costs more than shading.
 
         Returns:
             Whether a picture was rendered.
         """
-        self.divisor = self._divisor_for(camera_moving) if moving else 1
-        size = area.coarsened(self.divisor)
+        self.scale = self._scale_for(scene, moving, camera_moving)
+        size = area.scaled(self.scale)
         wanted = (scene, time, size)
         if wanted == self._made_of:
+            self._begun = None
             return False
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
-        self.report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True)
+        self.report = report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True)
         self._shown, self._spare = self._spare, self._shown
-        full = self.divisor**2
-        self._shade_ms = (self.report.shade_ms + self.report.post_ms) * full
-        if self.report.traced:
-            self._trace_ms = self.report.trace_ms * full
-        self._rays_stale |= self.report.traced
+        self._took_ms = report.trace_ms + report.shade_ms + report.post_ms
+        self._resolution.record(self.scale, self._took_ms, traced=report.traced)
+        self._rays_stale |= report.traced
         return True
 
     def count_rays(self) -> None:
@@ -132,15 +135,17 @@ class Picture:
         data = np.frombuffer(self._shown.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
-    def _divisor_for(self, camera_moving: bool) -> int:
-        budget, coarsest = _BUDGET[camera_moving]
-        needed = math.sqrt((self._shade_ms + (self._trace_ms if camera_moving else 0.0)) / budget)
-        kept = self._divisors.get(camera_moving, 1)
-        # A choice is kept while it is right to about a third, so that the picture does not hop between two sizes.
-        if not kept - 1.3 < needed < kept + 0.3:
-            kept = max(math.ceil(min(needed, coarsest)), 1)
-        self._divisors[camera_moving] = kept
-        return kept
+    def _scale_for(self, scene: Scene, moving: bool, camera_moving: bool) -> float:
+        if not moving:
+            self._begun = None
+            self._resolution.rest()
+            return 1.0
+        now, elapsed = clock.perf_counter(), 0.0
+        if self._begun is not None:
+            elapsed = now - self._begun
+            self._resolution.record_rest(1e3 * elapsed - self._took_ms)
+        self._begun = now
+        return self._resolution.scale(scene.playback.target_fps, camera_moving=camera_moving, elapsed=elapsed)
 
     def _spare_of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
         """What the next picture goes into. The one shown is left alone: should rendering fail, it is the last good one."""
@@ -161,7 +166,10 @@ class Picture:
         window.clear()
         if self._shown is None or area.is_empty:
             return
+        texture = self._shown.color_attachments[0]
+        # Smooth only where it is enlarged: pixel for pixel it looks the same, for less.
+        filtering = moderngl.NEAREST if texture.size == (area.width, area.height) else moderngl.LINEAR
+        texture.filter = (filtering, filtering)
         self._gl.viewport = (area.x, area.y, area.width, area.height)
-        self._shown.color_attachments[0].use(0)
-        self._program["area"].value = (area.x, area.y, area.width, area.height)
+        texture.use(0)
         self._triangle.render(moderngl.TRIANGLES, vertices=3)

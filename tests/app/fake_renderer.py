@@ -39,6 +39,7 @@ class FakeRenderer:
         self.calls = []
         self.programs = FakePrograms()
         self.fail = None
+        self.us_per_pixel = 0.0
 
     def render(self, scene, time, size, target=None, *, measure=False):
         if self.fail is not None:
@@ -46,7 +47,7 @@ class FakeRenderer:
         self.calls.append((scene, time, size))
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
-        return Report()
+        return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0)
 
     def hits(self):
         return Hits()

@@ -310,6 +310,24 @@ def still_picture_is_kept(hands: Hands) -> None:
     assert not hands.state.is_moving
 
 
+def dear_pictures_are_coarser_while_they_move(hands: Hands) -> None:
+    """A renderer that would take 0.2 s for a whole picture: coarser under the hand, whole at rest, and whole always without a target."""
+    area = hands.window.view().area
+    renderer, picture = hands.window.picture.renderer, hands.window.picture
+    hands.press(Key.p)
+    renderer.us_per_pixel = 2e5 / (area.width * area.height)
+    hands.context.key_hold(Key.left_arrow, 0.5)
+    assert picture.scale < 0.6 and renderer.calls[-1][2][0] < 0.6 * area.width, picture.scale
+    hands.settle()
+    hands.context.yield_(2)
+    assert picture.scale == 1.0 and renderer.calls[-1][2] == (area.width, area.height)
+    hands.state.change({"playback.target_fps": 0.0})
+    hands.context.key_hold(Key.left_arrow, 0.2)
+    assert picture.scale == 1.0 and renderer.calls[-1][2] == (area.width, area.height)
+    renderer.us_per_pixel = 0.0
+    hands.settle()
+
+
 def real_picture(hands: Hands) -> None:
     hands.press(Key.p)
     hands.settle()
