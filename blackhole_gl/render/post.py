@@ -14,6 +14,9 @@ from .shading import bind_samplers
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
 
+TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
+"""Size of the tone table, as switches of the shaders that make it and read it: bits of the mantissa, and exponents."""
+
 
 def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
     """Sizes of the bloom levels of a picture of `size`: a quarter, then halves, rounded up, until a side is 2 or less."""
@@ -27,25 +30,28 @@ def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
 
 
 class PostPass:
-    """Draws shaders/post/*.frag and owns the levels of the bloom. With bloom off it draws one triangle and owns nothing."""
+    """Draws shaders/post/*.frag and owns the levels of the bloom and the table of the tone curve. With bloom off it has no levels."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._size: tuple[int, int] | None = None
         self._down: list[moderngl.Framebuffer] = []
         self._up: list[moderngl.Framebuffer] = []
+        self._tone: moderngl.Framebuffer | None = None
+        self._tone_key: tuple | None = None
 
     def draw(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
         """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`. The uniform blocks are bound."""
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
         radiance.repeat_x = radiance.repeat_y = False
-        samplers = {"radiance": radiance}
+        samplers = {"radiance": radiance, "tone_table": self._tone_table(scene, ray_plan)}
         if scene.post.bloom:
             samplers["glow"] = self._bloom(scene, ray_plan, radiance)
-        triangle = self._programs.get("post/tone_map.frag", scene, ray_plan)
+        triangle = self._programs.get("post/tone_map.frag", scene, ray_plan, {**TONE_TABLE, "POST_SCALED": int(viewport[2:] != radiance.size)})
         bind_samplers(triangle.program, samplers)
         triangle.program["target_origin"].value = viewport[:2]
-        triangle.program["target_texel"].value = _texel(viewport[2:])
+        if "target_texel" in triangle.program:  # not where the picture is as large as its radiance, and has no glow
+            triangle.program["target_texel"].value = _texel(viewport[2:])
         target.use()
         outer = target.viewport
         target.viewport = viewport
@@ -54,10 +60,29 @@ class PostPass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
+        self._release_levels()
+        if self._tone is not None:
+            self._tone.color_attachments[0].release()
+            self._tone.release()
+        self._tone, self._tone_key = None, None
+
+    def _release_levels(self) -> None:
         for level in (*self._down, *self._up):
             level.color_attachments[0].release()
             level.release()
         self._down, self._up, self._size = [], [], None
+
+    def _tone_table(self, scene: Scene, ray_plan: RayPlan) -> moderngl.Texture:
+        """The curve of one channel, made anew when a number or a choice that it depends on has changed."""
+        triangle = self._programs.get("post/tone_table.frag", scene, ray_plan, TONE_TABLE)
+        key = (id(triangle), scene.post.exposure, scene.post.gamma)
+        if self._tone is None:
+            self._tone = self._ctx.framebuffer([_nearest(self._ctx.texture((1 << TONE_TABLE["TONE_COLUMN_BITS"], TONE_TABLE["TONE_ROWS"]), 4))])
+        if key != self._tone_key:
+            self._tone.use()
+            draw(triangle)
+            self._tone_key = key
+        return self._tone.color_attachments[0]
 
     def _bloom(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture) -> moderngl.Texture:
         self._make_levels(radiance.size)
@@ -82,7 +107,7 @@ class PostPass:
     def _make_levels(self, size: tuple[int, int]) -> None:
         if size == self._size:
             return
-        self.release()
+        self._release_levels()
         self._down = [self._level(level) for level in bloom_sizes(size)]
         self._up = [self._level(level.size) for level in reversed(self._down[:-1])]
         self._size = size
@@ -92,6 +117,11 @@ class PostPass:
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
         return self._ctx.framebuffer([texture])
+
+
+def _nearest(texture: moderngl.Texture) -> moderngl.Texture:
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
 
 
 def _texel(size: tuple[int, int]) -> tuple[float, float]:

@@ -79,6 +79,51 @@ def test_linear_is_the_srgb_transfer(developed) -> None:
     np.testing.assert_allclose(found, expected, atol=1e-3)
 
 
+
+
+def test_the_tone_table_is_the_curve(developed) -> None:
+    """Against the formulas in float64. 0.1 grey levels: entries are 2^-10 of the light apart (0.05 levels at white, by the nearest), half floats 2^-11.
+
+    So at most about one pixel in ten comes out a grey level off, and none by two.
+    """
+    light = np.geomspace(2.0**-12, 2.0**6, 4096).astype(np.float16).astype(float)
+    exposed = light * 2.0**0.7
+    shown = np.clip(exposed * (2.51 * exposed + 0.03) / (exposed * (2.43 * exposed + 0.59) + 0.14), 0.0, 1.0) ** (1 / 1.3)
+    expected = np.where(shown <= 0.0031308, 12.92 * shown, 1.055 * shown ** (1 / 2.4) - 0.055)
+    found = developed(np.repeat(light[None, :, None], 3, axis=2), post__tone_map="aces", post__gamma=1.3, post__exposure=0.7)[0, :, 1]
+    np.testing.assert_allclose(255.0 * found, 255.0 * expected, atol=0.1)
+
+
+def test_the_tone_table_follows_every_number(ctx, renderer) -> None:
+    """One pass, a number after the other: nothing of the table before is left."""
+
+    def picture(**values) -> np.ndarray:
+        renderer.render(Scene().with_values({**QUIET, **values}), 0.0, (32, 18))
+        return renderer.read_rgb8().astype(int)
+
+    plain = picture()
+    for change in ({"post.exposure": 1.0}, {"post.gamma": 1.5}, {"post.tone_map": "linear"}, {"post.tone_map": "agx"}):
+        assert np.abs(picture(**change) - plain).max() > 8, change
+    np.testing.assert_array_equal(picture(), plain)
+
+
+def test_a_picture_larger_than_its_radiance_is_filtered(ctx, renderer) -> None:
+    """A step of light, shown twice as large, has pixels between its sides."""
+    scene = Scene().with_values(QUIET)
+    ray_plan = plan.plan(scene)
+    renderer._bind(scene, ray_plan, 0.0, (8, 8), (0.0, 0.0))
+    data = np.zeros((8, 8, 4), np.float16)
+    data[:, 4:] = 0.2
+    source = ctx.texture((8, 8), 4, data.tobytes(), dtype="f2")
+    target = ctx.framebuffer([ctx.texture((16, 16), 4)])
+    post = PostPass(ctx, renderer.programs)
+    post.draw(scene, ray_plan, source, target, (0, 0, 16, 16))
+    row = np.frombuffer(target.read(components=3), np.uint8).reshape(16, 16, 3)[8, :, 0]
+    assert len(set(row.tolist())) == 4 and (np.diff(row.astype(int)) >= 0).all()
+    for item in (post, source, target):
+        item.release()
+
+
 def test_each_stop_doubles_the_light(developed) -> None:
     light = np.full((1, 4, 3), 0.05)
     np.testing.assert_allclose(developed(light * 4.0, post__tone_map="linear"), developed(light, post__tone_map="linear", post__exposure=2.0), atol=1e-3)
@@ -176,7 +221,7 @@ def test_bloom_off_compiles_no_bloom(ctx) -> None:
     made = Renderer(ctx)
     made._post = PostPass(ctx, Recorded(ctx))
     made.render(Scene().with_values({"post.bloom": False}), 0.0, (8, 8))
-    assert asked == ["post/tone_map.frag"]
+    assert set(asked) == {"post/tone_table.frag", "post/tone_map.frag"}
     made.release()
 
 
