@@ -20,6 +20,12 @@ MARCH_BOUND = 6.0
 # The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge.
 INNERMOST_CROSSING = 1.02
 
+# Share of the tolerance that interpolation may take; the march's own error at most pixels is far below its share.
+_REFINE_SHARE = 0.8
+
+REFINE_STEP = 4
+"""Pixels between the exact rays of a refined hit map's coarse grid."""
+
 
 @dataclass(frozen=True)
 class RayPlan:
@@ -31,6 +37,7 @@ class RayPlan:
         step_angle: κ in radians, as used.
         max_steps: no ray takes more.
         orders: crossings of the disk's plane that are kept, 0 without a disk.
+        refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
         reasons: why, a sentence each, for people.
     """
 
@@ -41,6 +48,7 @@ class RayPlan:
     step_angle: float
     max_steps: int
     orders: int
+    refine_px: float
     reasons: tuple[str, ...]
 
     @property
@@ -84,7 +92,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     elif orders < scene.rays.orders and not keep_crossings:
         reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
     if model.traits["kind"] == "closed":
-        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, tuple(reasons))
+        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, _refine_px(scene, model), tuple(reasons))
     control = scene.rays.step_control
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
@@ -105,6 +113,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         scene.rays.step_angle * stretch,
         scene.rays.max_steps,
         orders,
+        _refine_px(scene, model),
         tuple(reasons),
     )
 
@@ -131,6 +140,13 @@ def unfit_options(key: str, scene: Scene) -> dict[str, str]:
         if reasons:
             found[option] = "; ".join(reasons)
     return found
+
+
+def _refine_px(scene: Scene, model: PlugIn) -> float:
+    """Error that interpolation may add while the camera moves; 0 where it is off, or where an exact ray costs hardly more."""
+    if not scene.rays.refine or not model.traits.get("refines", model.traits["kind"] == "differential"):
+        return 0.0
+    return _REFINE_SHARE * scene.rays.tolerance
 
 
 def _visible_orders(scene: Scene) -> int:

@@ -70,6 +70,7 @@ class Rays:
     step_angle: float = number(0.0, 0.0, 0.8, "rad", "Angular step κ of models that march in angles; halving it divides the error by about 16; 0: from the tolerance.")
     max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
+    refine: bool = switch(True, "While the camera moves, trace a coarse grid of exact rays and interpolate between them where the tolerance allows; at rest every pixel gets its own.")
     lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
 
 

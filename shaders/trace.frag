@@ -21,13 +21,15 @@
 
 #if RAYS_LISTED
 uniform sampler2D listed_rays;
+#else
+uniform vec3 ray_grid; // pixels from ray to ray, then the pixel of the first
 #endif
 
 void main() {
 #if RAYS_LISTED
     vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
 #else
-    vec3 local = pixel_direction(gl_FragCoord.xy);
+    vec3 local = pixel_direction(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5);
 #endif
     store_hits(trace_ray(ray_start(local)));
 }

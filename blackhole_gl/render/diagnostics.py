@@ -11,8 +11,7 @@ from .. import plan, presets
 from ..plan import RayPlan
 from ..scene import Scene
 from .hit_map import HitMap
-from .programs import Programs, draw
-from .shading import bind_samplers
+from .programs import Programs, bind_samplers, draw
 from .views import View, linear_light, view_of
 
 _COLOURS = 256
@@ -57,7 +56,7 @@ class ViewPass:
         """
         view = view_of(scene)
         triangle = self._programs.get(f"views/{scene.post.view}.frag", scene, ray_plan)
-        samplers = {f"hits{k}": texture for k, texture in enumerate(hit_map.textures)}
+        samplers = hit_map.samplers()
         samplers |= {f"exact{k}": texture for k, texture in enumerate(reference.textures)}
         if view.scale is not None:
             samplers["colour_scale"] = self._scale(view)

@@ -29,6 +29,7 @@ class FrameReport:
     Attributes:
         trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
         traced: whether rays were traced; False when the kept hit map served.
+        sharp: whether every pixel had a ray of its own.
         method: the plan's method in a few words.
         reasons: why the plan chose it.
     """
@@ -37,6 +38,7 @@ class FrameReport:
     shade_ms: float
     post_ms: float
     traced: bool
+    sharp: bool
     method: str
     reasons: tuple[str, ...]
 
@@ -71,6 +73,7 @@ class Renderer:
         viewport: tuple[int, int, int, int] | None = None,
         *,
         measure: bool = False,
+        progressive: bool = False,
     ) -> FrameReport:
         """Draws `scene` at scene time `time` (r_s/c).
 
@@ -79,6 +82,8 @@ class Renderer:
             target: where it goes; an own 8-bit picture, read by `read_rgb8`, when None.
             viewport: (x, y, width, height) in the target; the whole picture at (0, 0) when None.
             measure: wait for each pass to end, so that the report's milliseconds mean something.
+            progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
+                further call for the same hits makes a slice of the picture exact, until the report says that it is sharp.
 
         Raises:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
@@ -86,23 +91,23 @@ class Renderer:
         """
         scene, ray_plan = diagnostics.prepared(plan.resolved(scene), plan.plan(scene))
         stamps = [clock.perf_counter()]
-        traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0))
+        traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0), progressive=progressive and not diagnostics.is_on(scene))
         self._stamp(stamps, measure)
         self._shade_into(scene, ray_plan, size)
         self._stamp(stamps, measure)
         self._post.draw(scene, ray_plan, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        return FrameReport(trace_ms, shade_ms, post_ms, traced, ray_plan.method, ray_plan.reasons)
+        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, ray_plan.method, ray_plan.reasons)
 
-    def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None) -> float:
+    def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None, *, progressive: bool = False) -> float:
         """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""
         ray_plan, scene = ray_plan or plan.plan(scene), plan.resolved(scene)
         self.programs.get("trace.frag", scene, ray_plan)
         self.hit_map.forget()
         self.ctx.finish()
         start = clock.perf_counter()
-        self._trace(scene, ray_plan, 0.0, size, (0.0, 0.0))
+        self._trace(scene, ray_plan, 0.0, size, (0.0, 0.0), progressive=progressive)
         self.ctx.finish()
         return clock.perf_counter() - start
 
@@ -176,14 +181,14 @@ class Renderer:
         self._radiance = self._picture = None
         self._buffers = {}
 
-    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float], picture: tuple[int, int] | None = None) -> bool:
+    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float], picture: tuple[int, int] | None = None, progressive: bool = False) -> bool:
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         traced_reference = False
         if scene.post.view == "difference":
             exact, exact_plan = diagnostics.most_accurate(scene, ray_plan)
             traced_reference = self.reference_map.trace(exact, exact_plan, self._bind(exact, exact_plan, time, picture or size, offset), size)
         ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
-        return self.hit_map.trace(scene, ray_plan, ray_bytes, size) or traced_reference
+        return self.hit_map.trace(scene, ray_plan, ray_bytes, size, progressive=progressive) or traced_reference
 
     def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int]) -> None:
         if self._radiance is None or self._radiance.size != size:

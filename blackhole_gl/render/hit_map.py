@@ -12,11 +12,14 @@ import moderngl
 import numpy as np
 
 from ..observer import cos_sin_deg
-from ..plan import RayPlan
+from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
-from . import uniforms
-from .programs import Programs, draw
+from . import refinement
+from .programs import Programs, bind_samplers, draw
 from .ray_tables import RayTables
+
+# Slices that a refined map is sharpened in, one a frame.
+_SLICES = 12
 
 
 @dataclass(frozen=True)
@@ -57,21 +60,84 @@ class HitMap:
         self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
         self._azimuth_deg = 0.0
+        self._grid = refinement.CoarseGrid(ctx, programs)
+        self._traced: tuple[Scene, RayPlan] | None = None
+        self._refined_for: tuple[float, float, float] | None = None  # the tolerances of a map that is not sharp
+        self._sharp_rows = 0
 
-    def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int]) -> bool:
-        """Traces `scene` at `size` unless the map holds just that already. The uniform blocks are bound. True when it traced."""
+    def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int], *, progressive: bool = False) -> bool:
+        """Traces `scene` at `size` unless the map holds just that already. The uniform blocks are bound.
+
+        Args:
+            progressive: hits that are new may be interpolated between exact rays where the plan allows it; each further call for the same
+                ones then traces a slice of the map exactly, until it `is_sharp`.
+
+        Returns:
+            Whether rays were traced.
+        """
         self._azimuth_deg = scene.camera.azimuth_deg
         triangle = self._programs.get("trace.frag", scene, ray_plan)
-        key = (id(triangle), ray_bytes, scene.hole, tuple(sorted((k, v) for k, v in scene.parameters.items() if k.startswith("rays."))), size, ray_plan.orders)
-        if key == self._key:
+        rays = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
+        key = (id(triangle), ray_bytes, scene.hole, rays, size, ray_plan.orders)
+        refined = progressive and ray_plan.refine_px > 0.0
+        held = key == self._key and (not refined or self.is_sharp or self._refined_for == refinement.tolerances(scene, ray_plan, size))
+        if held and self.is_sharp:
             return False
         self.tables.bind(triangle.program, scene)
         self._make_targets(size, ray_plan.orders)
-        self._target.use()
-        draw(triangle)
-        self._key = key
+        if not refined:
+            self._trace_rows(triangle, 0, size[1])
+        elif held:
+            self._sharpen(triangle)
+        else:
+            self._trace_refined(triangle, scene, ray_plan, size)
+        self._key, self._traced = key, (scene, ray_plan)
         self.traces += 1
         return True
+
+    @property
+    def is_sharp(self) -> bool:
+        """Whether every pixel has a ray of its own."""
+        return self._refined_for is None
+
+    def samplers(self) -> dict[str, moderngl.Texture]:
+        """The textures that common/hit_map_read.glsl reads, by name."""
+        found = {f"hits{k}": texture for k, texture in enumerate(self.textures)}
+        return found if self.is_sharp else {**found, **self._grid.samplers()}
+
+    def switches(self) -> dict[str, int]:
+        """The switches that shaders which read the map are to be composed with."""
+        return {"HIT_MAP_REFINED": int(not self.is_sharp)}
+
+    def _trace_rows(self, triangle: moderngl.VertexArray, first: int, end: int) -> None:
+        """Exact rays for the rows `first` ≤ y < `end`; the map is sharp after the last."""
+        width, height = self._target.size
+        self._target.use()
+        self._target.scissor = 0, first, width, end - first
+        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
+        draw(triangle)
+        self._target.scissor = None
+        if end == height:
+            self._refined_for, self._sharp_rows = None, 0
+
+    def _trace_refined(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
+        self._grid.trace(triangle, scene, ray_plan, size)
+        self._grid.masked(self.textures).use()
+        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = ">"
+        draw(triangle)
+        self._ctx.depth_func = "<"
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._refined_for, self._sharp_rows = refinement.tolerances(scene, ray_plan, size), 0
+
+    def _sharpen(self, triangle: moderngl.VertexArray) -> None:
+        height = self._target.size[1]
+        rows = -(-height // (_SLICES * REFINE_STEP)) * REFINE_STEP
+        first, end = self._sharp_rows, min(self._sharp_rows + rows, height)
+        self._sharp_rows = end
+        self._grid.give_own_rays(first, end)
+        self._trace_rows(triangle, first, end)
 
     def forget(self) -> None:
         """The next `trace` traces, whatever is kept."""
@@ -95,6 +161,7 @@ class HitMap:
         self._make_targets((width, height), ray_plan.orders)
         self._target.use()
         draw(triangle)
+        self._refined_for = None
         rays.release()
         found = self.read()
         return HitArrays(*(getattr(found, name).reshape(height * width, *getattr(found, name).shape[2:])[:count] for name in HitArrays.__dataclass_fields__))
@@ -116,13 +183,28 @@ class HitMap:
         return values
 
     def read(self) -> HitArrays:
-        """The map as arrays of shape (height, width, …)."""
+        """The map as arrays of shape (height, width, …), as its readers see it. The uniform blocks of its last trace are bound."""
         width, height = self.textures[0].size
-        data = [np.frombuffer(t.read(), np.float32).reshape(height, width, 4) for t in self.textures]
+        data = [np.frombuffer(stored, np.float32).reshape(height, width, 4) for stored in (self._stored() if self.is_sharp else self._resolved())]
         data += [np.zeros((height, width, 4), np.float32)] * (3 - len(data))
         packed = np.rint(data[0][..., 3]).astype(int)
         crossing = np.stack([data[1][..., :2], data[2][..., :2], data[2][..., 2:]], axis=-2)
         return HitArrays(packed & 3, packed >> 2, self._in_world(data[0][..., :3]), data[1][..., 2], self._in_world(crossing))
+
+    def _stored(self) -> list[bytes]:
+        return [texture.read() for texture in self.textures]
+
+    def _resolved(self) -> list[bytes]:
+        triangle = self._programs.get("refine_resolve.frag", *self._traced, self.switches())
+        bind_samplers(triangle.program, self.samplers())
+        textures = [self._ctx.texture(texture.size, 4, dtype="f4") for texture in self.textures]
+        target = self._ctx.framebuffer(textures)
+        target.use()
+        draw(triangle)
+        found = [texture.read() for texture in textures]
+        for made in (target, *textures):
+            made.release()
+        return found
 
     def _in_world(self, vectors: np.ndarray) -> np.ndarray:
         """Vectors (…, 2 or 3) turned from the camera's meridian to the world, as float32."""
@@ -147,6 +229,7 @@ class HitMap:
     def release(self) -> None:
         """Gives the GL objects back."""
         self.tables.release()
+        self._grid.release()
         self._release_targets()
 
     def _release_targets(self) -> None:

@@ -85,6 +85,14 @@ class Programs:
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
 
 
+def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture]) -> None:
+    """Binds those of `samplers` (name → texture) that `program` uses, to texture units 0, 1, …"""
+    used = [name for name in samplers if name in program]
+    for unit, name in enumerate(used):
+        samplers[name].use(unit)
+        program[name].value = unit
+
+
 def draw(triangle: moderngl.VertexArray) -> None:
     """Draws the triangle that covers the bound target."""
     triangle.render(moderngl.TRIANGLES, vertices=3)

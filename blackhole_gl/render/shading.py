@@ -9,7 +9,7 @@ from .. import disk_profile, observer, plan, star_cells
 from ..resources import assets_dir
 from ..scene import Scene
 from .hit_map import HitMap
-from .programs import Programs, draw
+from .programs import Programs, bind_samplers, draw
 
 
 class ShadePass:
@@ -89,8 +89,8 @@ class ShadePass:
         self._release_classes()
 
     def _prepared(self, path: str, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.VertexArray:
-        triangle = self._programs.get(path, scene, ray_plan)
-        bind_samplers(triangle.program, {**{f"hits{k}": texture for k, texture in enumerate(hit_map.textures)}, **self._tables})
+        triangle = self._programs.get(path, scene, ray_plan, hit_map.switches())
+        bind_samplers(triangle.program, {**hit_map.samplers(), **self._tables})
         return triangle
 
     def _draw_classes(self, triangle: moderngl.VertexArray, comparison: str, depth: float) -> None:
@@ -143,14 +143,6 @@ class ShadePass:
             self._tables["temperature_profile"] = _row(self._ctx, values[:, None])
         self._tables["temperature_profile"].write(values.tobytes())
         self._profile_key = key
-
-
-def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture]) -> None:
-    """Binds those of `samplers` (name → texture) that `program` uses, to texture units 0, 1, …"""
-    used = [name for name in samplers if name in program]
-    for unit, name in enumerate(used):
-        samplers[name].use(unit)
-        program[name].value = unit
 
 
 def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:

@@ -125,7 +125,7 @@ def scene_values(scene: Scene) -> dict[str, object]:
 
 def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0}
+    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": plan.REFINE_STEP}
     found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
     for key, item in fields().items():
         name = item.glsl_name.upper()

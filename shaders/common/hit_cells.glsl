@@ -1,0 +1,19 @@
+// The coarse grid of a refined hit map: one exact ray at every REFINE_STEP-th pixel, and a byte for each cell between four of them.
+//
+//   bits 0–1            fate of all its pixels; UNRESOLVED: nothing can be interpolated here, every pixel has a ray of its own
+//   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2
+//
+// The grid begins one node outside the picture: texel (i, j) of the coarse textures is pixel REFINE_STEP·(i − 1, j − 1), and texel (i, j)
+// of the cells holds the pixels from REFINE_STEP·(i, j) on.
+
+const uint CROSSING_NONE = 0u;
+const uint CROSSING_NEAR = 1u; // to be interpolated
+const uint CROSSING_FAR = 2u;  // further out than matters, or none
+
+uint cell_crossing(uint cell, int n) {
+    return (cell >> (2 + 2 * n)) & 3u;
+}
+
+bool cell_has_own_rays(uint cell) {
+    return (cell & 3u) == 0u;
+}
