@@ -143,8 +143,8 @@ def unfit_options(key: str, scene: Scene) -> dict[str, str]:
 
 
 def _refine_px(scene: Scene, model: PlugIn) -> float:
-    """Error that interpolation may add while the camera moves; 0 where it is off, or where an exact ray costs hardly more."""
-    if not scene.rays.refine or not model.traits.get("refines", model.traits["kind"] == "differential"):
+    """Error that interpolation may add while the camera moves; 0 where it is off, or where rays cost no more than interpolating: in closed models."""
+    if not scene.rays.refine or model.traits["kind"] == "closed":
         return 0.0
     return _REFINE_SHARE * scene.rays.tolerance
 

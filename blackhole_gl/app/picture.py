@@ -97,13 +97,19 @@ class Picture:
         """Makes the next `update` render, whatever it is given."""
         self._made_of = None
 
-    def update(self, scene: Scene, time: float, area: Area, *, moving: bool, camera_moving: bool) -> bool:
+    @property
+    def is_sharp(self) -> bool:
+        """Whether every pixel shown has a ray of its own; after a movement that takes some more calls of `update`."""
+        return self.report is None or self.report.sharp
+
+    def update(self, scene: Scene, time: float, area: Area, *, moving: bool, camera_moving: bool, exact: bool = False) -> bool:
         """Renders when anything that shows has changed.
 
         Args:
             time: scene time in r_s/c.
             moving: whether the next frame will differ; a picture too costly for the scene's frame rate is then drawn coarser.
-            camera_moving: whether rays have to be traced anew, which costs more than shading.
+            camera_moving: whether rays have to be traced anew, which costs more than shading; some pixels are then interpolated between rays.
+            exact: make the picture sharp at once.
 
         Returns:
             Whether a picture was rendered.
@@ -111,21 +117,23 @@ class Picture:
         self.scale = self._scale_for(scene, moving, camera_moving)
         size = area.scaled(self.scale)
         wanted = (scene, time, size)
-        if wanted == self._made_of:
+        if wanted == self._made_of and self.is_sharp:
             self._begun = None
             return False
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
-        self.report = report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True)
+        progressive = camera_moving or (not self.is_sharp and not exact)
+        self.report = report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
         self._shown, self._spare = self._spare, self._shown
         self._took_ms = report.trace_ms + report.shade_ms + report.post_ms
-        self._resolution.record(self.scale, self._took_ms, traced=report.traced)
+        if not report.sharpened:
+            self._resolution.record(self.scale, self._took_ms, traced=report.traced)
         self._rays_stale |= report.traced
         return True
 
     def count_rays(self) -> None:
         """Brings `rays` up to date with the hit map. It is read back whole, so this is for frames in which no rays are traced."""
-        if self._rays_stale:
+        if self._rays_stale and self.is_sharp:
             self.rays = RayFigures.of(self.renderer.hits())
             self._rays_stale = False
 

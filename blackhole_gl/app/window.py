@@ -208,7 +208,8 @@ class Window:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
-        busy = self.state.is_moving or self.live_chart.busy(self.state)
+        sharp = self.picture is None or self.picture.is_sharp
+        busy = self.state.is_moving or not sharp or self.live_chart.busy(self.state)
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or not busy)
         self._full_screen.set(self.state.full_screen)
 
@@ -293,7 +294,7 @@ class Window:
         moving = (state.is_moving or editing) and not state.picture_wanted
         camera_moving = editing or state.dragging or not state.motion.at_rest
         try:
-            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=camera_moving)
+            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted)
         except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
             text = str(error) or type(error).__name__
             if text != state.render_error:  # once, and not for every frame of a drag

@@ -30,6 +30,7 @@ class FrameReport:
         trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
         traced: whether rays were traced; False when the kept hit map served.
         sharp: whether every pixel had a ray of its own.
+        sharpened: whether the rays traced only made a slice of a kept map exact.
         method: the plan's method in a few words.
         reasons: why the plan chose it.
     """
@@ -39,6 +40,7 @@ class FrameReport:
     post_ms: float
     traced: bool
     sharp: bool
+    sharpened: bool
     method: str
     reasons: tuple[str, ...]
 
@@ -98,7 +100,7 @@ class Renderer:
         self._post.draw(scene, ray_plan, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, ray_plan.method, ray_plan.reasons)
+        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, ray_plan.method, ray_plan.reasons)
 
     def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None, *, progressive: bool = False) -> float:
         """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""

@@ -48,12 +48,14 @@ class HitMap:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
         tables: what closed ray models look up.
         traces: how many times rays have been traced, for tests and the overlay.
+        sharpened: whether the last `trace` only made a slice of the kept map exact.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
+        self.sharpened = False
         self.tables = RayTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
@@ -81,13 +83,14 @@ class HitMap:
         key = (id(triangle), ray_bytes, scene.hole, rays, size, ray_plan.orders)
         refined = progressive and ray_plan.refine_px > 0.0
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == refinement.tolerances(scene, ray_plan, size))
+        self.sharpened = refined and held and not self.is_sharp
         if held and self.is_sharp:
             return False
         self.tables.bind(triangle.program, scene)
         self._make_targets(size, ray_plan.orders)
         if not refined:
             self._trace_rows(triangle, 0, size[1])
-        elif held:
+        elif self.sharpened:
             self._sharpen(triangle)
         else:
             self._trace_refined(triangle, scene, ray_plan, size)

@@ -11,6 +11,8 @@ class Report:
     shade_ms: float = 1.0
     post_ms: float = 1.0
     traced: bool = False
+    sharp: bool = True
+    sharpened: bool = False
     method: str = "flat colour"
     reasons: tuple = ("it is quick",)
 
@@ -41,7 +43,7 @@ class FakeRenderer:
         self.fail = None
         self.us_per_pixel = 0.0
 
-    def render(self, scene, time, size, target=None, *, measure=False):
+    def render(self, scene, time, size, target=None, *, measure=False, progressive=False):
         if self.fail is not None:
             raise self.fail
         self.calls.append((scene, time, size))
