@@ -1,7 +1,7 @@
 """How long frames take on this machine: methods and looks, still and moving, over picture sizes; interleaved, as ratios to the flat frame.
 
 A *still* frame keeps the hit map and lets the disk turn: shade and post. A *moving* one follows a camera that has gone half a degree round and
-half a degree down since the last: trace, shade and post. Times are by the wall clock with the pipeline drained after each frame; beside
+half a degree down since the last: trace, shade and post, as the window draws it: refined where the plan refines. Times are by the wall clock with the pipeline drained after each frame; beside
 their median stands the least processor time of the process, which other programs disturb less and which a GPU makes meaningless.
 """
 
@@ -20,6 +20,8 @@ from .scene import Scene
 SIZES = ((640, 360), (1280, 720), (1920, 1080), (3840, 2160))
 TURN_DEG = 0.5
 YARDSTICK = "flat"
+EULER_SIZE = (1280, 720)
+"""The size at which E is timed too, in every round of the moving frames."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,8 @@ class Frames:
         milliseconds: median of whole frames by the wall clock; trace_ms, shade_ms, post_ms: medians of their parts.
         ratio: median over the rounds of the whole frame relative to the flat one of the same round, size and motion.
         processor_ms: least processor time of a whole frame.
+        trace_in_e: median over the rounds of the trace relative to E, the trace of 300 fixed Euler steps of `schwarzschild` at the same size in
+            the same round; None where E was not timed.
     """
 
     scene: str
@@ -45,11 +49,12 @@ class Frames:
     post_ms: float
     ratio: float
     processor_ms: float
+    trace_in_e: float | None
 
 
 @dataclass(frozen=True)
 class Bench:
-    """A whole run: the machine, the rounds and the rows. `euler_ms` is E, the trace of 300 fixed Euler steps at 1280×720; None when not asked for."""
+    """A whole run: the machine, the rounds and the rows; `euler_ms` is the median of E at `EULER_SIZE`, None where it was not timed."""
 
     machine: str
     renderer: str
@@ -68,7 +73,8 @@ def scenes(scene: Scene) -> dict[str, Scene]:
     return {
         YARDSTICK: timing.flat_scene(scene),
         "as given": scene,
-        "kerr, κ = 0.2": scene.with_values({"rays.model": "kerr", "rays.step_angle": 0.2}),
+        "as given, not refined": scene.with_values({"rays.refine": False}),
+        "kerr, κ = 0.2, not refined": scene.with_values({"rays.model": "kerr", "rays.step_angle": 0.2, "rays.refine": False}),
         "schwarzschild": without_spin.with_values({"rays.model": "schwarzschild"}),
         "table": without_spin.with_values({"rays.model": "schwarzschild_table"}),
         "table, no disk": without_spin.with_values({"rays.model": "schwarzschild_table", "disk.enabled": False}),
@@ -88,21 +94,20 @@ def measure(
     """Runs the bench on `renderer`.
 
     Args:
-        euler: also time E, which takes as long as dozens of frames.
+        euler: also time E where `sizes` hold `EULER_SIZE`; it takes as long as dozens of frames.
         progress: called with the share done, 0…1.
     """
     compared, sizes = scenes(scene), tuple(sizes)
     rows: list[Frames] = []
+    euler_ms: list[float] = []
     for done, size in enumerate(sizes):
         for half, motion in enumerate(("still", "moving")):
-            rows += _rows(renderer, compared, motion, size, rounds)
+            yardstick = timing.euler_task(scene) if euler and motion == "moving" and size == EULER_SIZE else None
+            rows += _rows(renderer, compared, motion, size, rounds, yardstick, euler_ms)
             if progress is not None:
                 progress((done + 0.5 * (half + 1)) / len(sizes))
-    yardstick = None
-    if euler:
-        slow, slow_plan = timing.euler_task(scene)
-        yardstick = 1e3 * statistics.median(renderer.time_trace(slow, (1280, 720), slow_plan) for _ in range(3))
-    return Bench(platform.processor() or platform.machine(), renderer.ctx.info["GL_RENDERER"], rounds, yardstick, tuple(rows))
+    machine = platform.processor() or platform.machine()
+    return Bench(machine, renderer.ctx.info["GL_RENDERER"], rounds, statistics.median(euler_ms) if euler_ms else None, tuple(rows))
 
 
 def text(bench: Bench) -> str:
@@ -110,28 +115,42 @@ def text(bench: Bench) -> str:
     lines = [
         f"{bench.renderer}; {bench.rounds} rounds" + (f"; E = {bench.euler_ms:.0f} ms" if bench.euler_ms else ""),
         "",
-        "| size | motion | scene | method | ms | trace | shade | post | × flat | processor ms |",
-        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| size | motion | scene | method | ms | trace | shade | post | × flat | trace, E | processor ms |",
+        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for row in bench.rows:
         times = " | ".join(f"{value:.1f}" for value in (row.milliseconds, row.trace_ms, row.shade_ms, row.post_ms))
-        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {row.processor_ms:.1f} |")
+        in_e = "" if row.trace_in_e is None else f"{row.trace_in_e:.3f}"
+        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {in_e} | {row.processor_ms:.1f} |")
     return "\n".join(lines) + "\n"
 
 
-def _rows(renderer: Renderer, compared: Mapping[str, Scene], motion: str, size: tuple[int, int], rounds: int) -> list[Frames]:
+def _rows(
+    renderer: Renderer,
+    compared: Mapping[str, Scene],
+    motion: str,
+    size: tuple[int, int],
+    rounds: int,
+    yardstick: tuple[Scene, plan.RayPlan] | None,
+    euler_ms: list[float],
+) -> list[Frames]:
+    """The rows of one size and motion; E of every round, where there is a `yardstick`, is put into `euler_ms`."""
     wall: dict[str, list[tuple[float, ...]]] = {name: [] for name in compared}
     processor: dict[str, list[float]] = {name: [] for name in compared}
     for counted in range(-1, rounds):
+        if yardstick is not None:
+            seconds = renderer.time_trace(yardstick[0], size, yardstick[1])
+            if counted >= 0:
+                euler_ms.append(1e3 * seconds)
         for name, scene in compared.items():
             frame = _moved(scene, counted + 2) if motion == "moving" else scene
             for warm in range(1 if motion == "moving" else 3):  # the hit map, and the sky that is kept from the second frame on
-                renderer.render(frame, 0.01 * warm, size)
+                renderer.render(frame, 0.01 * warm, size, progressive=motion == "moving")
             if motion == "moving":
                 frame = _moved(frame, 1)
             renderer.ctx.finish()
             start = clock.process_time()
-            report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True)
+            report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True, progressive=motion == "moving")
             if counted >= 0:
                 processor[name].append(1e3 * (clock.process_time() - start))
                 wall[name].append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
@@ -139,8 +158,14 @@ def _rows(renderer: Renderer, compared: Mapping[str, Scene], motion: str, size: 
     for name, scene in compared.items():
         whole, *parts = (statistics.median(column) for column in zip(*wall[name]))
         ratio = statistics.median(a[0] / b[0] for a, b in zip(wall[name], wall[YARDSTICK]))
-        found.append(Frames(name, plan.plan(scene).method, motion, *size, whole, *parts, ratio, min(processor[name])))
+        in_e = statistics.median(times[1] / e for times, e in zip(wall[name], euler_ms)) if yardstick else None
+        found.append(Frames(name, _method(scene, motion), motion, *size, whole, *parts, ratio, min(processor[name]), in_e))
     return found
+
+
+def _method(scene: Scene, motion: str) -> str:
+    made = plan.plan(scene)
+    return f"{made.method}, refined" if motion == "moving" and made.refine_px else made.method
 
 
 def _moved(scene: Scene, frames: int) -> Scene:
