@@ -36,6 +36,7 @@ class Frames:
         processor_ms: least processor time of a whole frame.
         trace_in_e: median over the rounds of the trace relative to E, the trace of 300 fixed Euler steps of `schwarzschild` at the same size in
             the same round; None where E was not timed.
+        own_rays: share of the pixels that had a ray of their own in the last frame; 1 where nothing was interpolated.
     """
 
     scene: str
@@ -50,6 +51,7 @@ class Frames:
     ratio: float
     processor_ms: float
     trace_in_e: float | None
+    own_rays: float
 
 
 @dataclass(frozen=True)
@@ -115,13 +117,13 @@ def text(bench: Bench) -> str:
     lines = [
         f"{bench.renderer}; {bench.rounds} rounds" + (f"; E = {bench.euler_ms:.0f} ms" if bench.euler_ms else ""),
         "",
-        "| size | motion | scene | method | ms | trace | shade | post | × flat | trace, E | processor ms |",
-        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| size | motion | scene | method | ms | trace | shade | post | × flat | trace, E | own rays | processor ms |",
+        "| --- | --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for row in bench.rows:
         times = " | ".join(f"{value:.1f}" for value in (row.milliseconds, row.trace_ms, row.shade_ms, row.post_ms))
         in_e = "" if row.trace_in_e is None else f"{row.trace_in_e:.3f}"
-        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {in_e} | {row.processor_ms:.1f} |")
+        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {in_e} | {row.own_rays:.2f} | {row.processor_ms:.1f} |")
     return "\n".join(lines) + "\n"
 
 
@@ -137,6 +139,7 @@ def _rows(
     """The rows of one size and motion; E of every round, where there is a `yardstick`, is put into `euler_ms`."""
     wall: dict[str, list[tuple[float, ...]]] = {name: [] for name in compared}
     processor: dict[str, list[float]] = {name: [] for name in compared}
+    own_rays: dict[str, float] = {}
     for counted in range(-1, rounds):
         if yardstick is not None:
             seconds = renderer.time_trace(yardstick[0], size, yardstick[1])
@@ -153,13 +156,14 @@ def _rows(
             report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True, progressive=motion == "moving")
             if counted >= 0:
                 processor[name].append(1e3 * (clock.process_time() - start))
+                own_rays[name] = renderer.hit_map.own_share()
                 wall[name].append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
     found = []
     for name, scene in compared.items():
         whole, *parts = (statistics.median(column) for column in zip(*wall[name]))
         ratio = statistics.median(a[0] / b[0] for a, b in zip(wall[name], wall[YARDSTICK]))
         in_e = statistics.median(times[1] / e for times, e in zip(wall[name], euler_ms)) if yardstick else None
-        found.append(Frames(name, _method(scene, motion), motion, *size, whole, *parts, ratio, min(processor[name]), in_e))
+        found.append(Frames(name, _method(scene, motion), motion, *size, whole, *parts, ratio, min(processor[name]), in_e, own_rays[name]))
     return found
 
 

@@ -103,6 +103,10 @@ class HitMap:
         """Whether every pixel has a ray of its own."""
         return self._refined_for is None
 
+    def own_share(self) -> float:
+        """Share of the pixels that have a ray of their own; 1 for a sharp map. Waits for the GPU."""
+        return 1.0 if self.is_sharp else self._grid.own_share()
+
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""
         found = {f"hits{k}": texture for k, texture in enumerate(self.textures)}

@@ -6,6 +6,7 @@ import math
 from typing import Sequence
 
 import moderngl
+import numpy as np
 
 from .. import plan
 from ..plan import REFINE_STEP, RayPlan
@@ -66,6 +67,11 @@ class CoarseGrid:
         cells = self._cells.color_attachments[0]
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
+
+    def own_share(self) -> float:
+        """Share of the picture's pixels that are traced themselves, nodes of the grid left out. Waits for the GPU."""
+        cells = np.frombuffer(self._cells.color_attachments[0].read(alignment=1), np.uint8)
+        return float(np.mean(cells & 3 == 0))
 
     def _judge(self, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
         judge = self._programs.get("refine_cells.frag", scene, ray_plan)
