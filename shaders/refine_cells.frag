@@ -1,5 +1,5 @@
 #version 330 core
-// Coarse hits → which cells of the coarse grid can be interpolated, a byte a cell (common/hit_cells.glsl).
+// Coarse hits → which cells of the coarse grid can be interpolated, and how (common/hit_cells.glsl).
 //
 // A cell may be interpolated where it and its neighbours have one fate, where no crossing that matters comes or goes, and where bilinear
 // interpolation keeps within refine_tolerance: its error is at most (|f_xx| + |f_yy|)/8, with the largest second differences over the
@@ -28,8 +28,8 @@ float interpolation_error(vec3 v[12]) {
     return 0.125 * (along_x + along_y);
 }
 
-// What to make of a crossing that lies at these points; `trusted` falls where the cell cannot be interpolated.
-uint crossing_kind(vec3 point[12], inout bool trusted) {
+// What to make of a crossing that lies at these points, as the lowest bits of a cell; `trusted` falls where the cell cannot be interpolated.
+uint crossing_kind(vec3 point[12], inout bool trusted, inout bool disk) {
     float nearest = 1e30, farthest = 0.0, smallest = 1e30;
     for (int i = 0; i < 12; ++i) {
         float r2 = dot(point[i], point[i]);
@@ -39,6 +39,7 @@ uint crossing_kind(vec3 point[12], inout bool trusted) {
     }
     bool matters = nearest < refine_tolerance.z * refine_tolerance.z;
     trusted = trusted && (!matters || smallest > 0.0 && interpolation_error(point) < refine_tolerance.y);
+    disk = disk || nearest <= disk_r_out * disk_r_out && farthest >= disk_r_in * disk_r_in;
     return matters ? CROSSING_NEAR : farthest > 0.0 ? CROSSING_FAR : CROSSING_NONE;
 }
 
@@ -53,21 +54,22 @@ void main() {
 #define SAME_FATE(k, i, j) trusted = trusted && (int(e##k.w + 0.5) & 3) == fate;
     EACH_NODE(SAME_FATE)
     uint cell = uint(fate);
+    bool disk = false; // the nodes around a cell leave room for the width of its pixels
 #if ORDERS > 0
 #define FIRST(k, i, j) v[k] = vec3(texelFetch(hits1, corner + ivec2(i, j), 0).xy, 0.0);
     EACH_NODE(FIRST)
-    cell |= crossing_kind(v, trusted) << 2;
+    cell |= crossing_kind(v, trusted, disk) << 2;
 #endif
 #if ORDERS > 1
 #define OTHERS(k, i, j) vec4 c##k = texelFetch(hits2, corner + ivec2(i, j), 0); v[k] = vec3(c##k.xy, 0.0); u[k] = vec3(c##k.zw, 0.0);
     EACH_NODE(OTHERS)
-    cell |= crossing_kind(v, trusted) << 4;
+    cell |= crossing_kind(v, trusted, disk) << 4;
 #endif
 #if ORDERS > 2
-    cell |= crossing_kind(u, trusted) << 6;
+    cell |= crossing_kind(u, trusted, disk) << 6;
 #endif
     // The hole's own cells are always traced: from far away it can be smaller than a cell.
     vec2 from_centre = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - 0.5 * picture_size);
     trusted = trusted && max(from_centre.x, from_centre.y) > float(REFINE_STEP);
-    cell_out = trusted ? cell : 0u;
+    cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
 }

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
+from .. import plan
 from ..observer import cos_sin_deg
 from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
@@ -64,7 +65,7 @@ class HitMap:
         self._azimuth_deg = 0.0
         self._grid = refinement.CoarseGrid(ctx, programs)
         self._traced: tuple[Scene, RayPlan] | None = None
-        self._refined_for: tuple[float, float, float] | None = None  # the tolerances of a map that is not sharp
+        self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
 
     def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int], *, progressive: bool = False) -> bool:
@@ -82,7 +83,7 @@ class HitMap:
         rays = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
         key = (id(triangle), ray_bytes, scene.hole, rays, size, ray_plan.orders)
         refined = progressive and ray_plan.refine_px > 0.0
-        held = key == self._key and (not refined or self.is_sharp or self._refined_for == refinement.tolerances(scene, ray_plan, size))
+        held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(scene, ray_plan, size))
         self.sharpened = refined and held and not self.is_sharp
         if held and self.is_sharp:
             return False
@@ -107,6 +108,11 @@ class HitMap:
         """Share of the pixels that have a ray of their own; 1 for a sharp map. Waits for the GPU."""
         return 1.0 if self.is_sharp else self._grid.own_share()
 
+    @property
+    def classes(self) -> moderngl.Texture | None:
+        """Depth by what each pixel needs (shaders/refine_classes.frag), for a map that is not sharp; None for a sharp one."""
+        return None if self.is_sharp else self._grid.classes
+
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""
         found = {f"hits{k}": texture for k, texture in enumerate(self.textures)}
@@ -129,14 +135,8 @@ class HitMap:
 
     def _trace_refined(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
         self._grid.trace(triangle, scene, ray_plan, size)
-        self._grid.masked(self.textures).use()
-        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
-        self._ctx.enable(moderngl.DEPTH_TEST)
-        self._ctx.depth_func = ">"
-        draw(triangle)
-        self._ctx.depth_func = "<"
-        self._ctx.disable(moderngl.DEPTH_TEST)
-        self._refined_for, self._sharp_rows = refinement.tolerances(scene, ray_plan, size), 0
+        self._grid.trace_own_rays(triangle, self.textures)
+        self._refined_for, self._sharp_rows = _refined_for(scene, ray_plan, size), 0
 
     def _sharpen(self, triangle: moderngl.VertexArray) -> None:
         height = self._target.size[1]
@@ -243,3 +243,8 @@ class HitMap:
         for kept in (*self._targets.values(), *self._pool):
             kept.release()
         self._targets, self._pool, self._target, self.textures, self._key = {}, [], None, [], None
+
+
+def _refined_for(scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> tuple:
+    """What a refined map depends on beside its key: how well it interpolates, and where the disk's edges are."""
+    return refinement.tolerances(scene, ray_plan, size), plan.effective_disk_radii(scene)

@@ -11,16 +11,22 @@ import numpy as np
 from .. import plan
 from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
-from .programs import Programs, draw
+from .programs import Programs, bind_samplers, draw
 
 # Crossings further out than the disk's edge by this factor do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
 
+# Between the depth of pixels with rays of their own and all others in shaders/refine_classes.frag.
+_OWN_RAYS = 0.85
+
 
 class CoarseGrid:
-    """The coarse textures, the cells between their nodes, and the depth that keeps pixels of trusted cells from being traced.
+    """The coarse textures, the cells between their nodes, and what each pixel needs.
 
-    What they hold is described in shaders/common/hit_cells.glsl.
+    Attributes:
+        classes: depth of the picture's size, as shaders/refine_classes.frag writes it.
+
+    The other textures are described in shaders/common/hit_cells.glsl.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
@@ -29,71 +35,74 @@ class CoarseGrid:
         self._textures: list[moderngl.Texture] = []
         self._nodes: moderngl.Framebuffer | None = None
         self._cells: moderngl.Framebuffer | None = None
-        self._mask: moderngl.Framebuffer | None = None
-        self._masked: moderngl.Framebuffer | None = None
-        self.depth: moderngl.Texture | None = None
+        self._sorted: moderngl.Framebuffer | None = None
+        self._own: moderngl.Framebuffer | None = None
+        self.classes: moderngl.Texture | None = None
 
     def trace(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
-        """Traces the grid for a picture of `size` with the trace pass `triangle`, judges its cells and prepares `depth`."""
+        """Traces the grid for a picture of `size` with the trace pass `triangle`, judges its cells and sorts the pixels into `classes`."""
         self._make_targets(size, 1 + min(ray_plan.orders, 2))
         triangle.program["ray_grid"].value = REFINE_STEP, -REFINE_STEP, -REFINE_STEP
         self._nodes.use()
         draw(triangle)
         self._judge(scene, ray_plan, size)
-        mask = self._programs.get("refine_mask.frag", scene, ray_plan)
-        mask.program["cells"].value = 0
-        self._cells.color_attachments[0].use(0)
-        self._mask.use()
+        sorting = self._programs.get("refine_classes.frag", scene, ray_plan)
+        bind_samplers(sorting.program, {"cells": self._cells.color_attachments[0]})
+        self._sorted.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        draw(mask)
+        draw(sorting)
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
+
+    def trace_own_rays(self, triangle: moderngl.VertexArray, textures: Sequence[moderngl.Texture]) -> None:
+        """Traces the pixels that cannot be interpolated into `textures`, of the picture's size."""
+        if self._own is None or self._own.color_attachments != tuple(textures):
+            if self._own is not None:
+                self._own.release()
+            self._own = self._ctx.framebuffer(textures, self.classes)
+        self._own.use()
+        self._own.depth_mask = False
+        self._ctx.enable(moderngl.DEPTH_TEST)  # "<", against the class of pixels with rays of their own
+        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
+        triangle.program["triangle_depth"].value = 2.0 * _OWN_RAYS - 1.0
+        draw(triangle)
+        triangle.program["triangle_depth"].value = 0.0
+        self._ctx.disable(moderngl.DEPTH_TEST)
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""
         return {"cells": self._cells.color_attachments[0], **{f"coarse{k}": texture for k, texture in enumerate(self._textures)}}
 
-    def masked(self, textures: Sequence[moderngl.Texture]) -> moderngl.Framebuffer:
-        """The framebuffer of full-size `textures` behind `depth`."""
-        if self._masked is None or self._masked.color_attachments != tuple(textures):
-            if self._masked is not None:
-                self._masked.release()
-            self._masked = self._ctx.framebuffer(textures, self.depth)
-        return self._masked
-
     def give_own_rays(self, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
         cells = self._cells.color_attachments[0]
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
-        cells.write(bytes(cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
+        cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
 
     def own_share(self) -> float:
         """Share of the picture's pixels that are traced themselves, nodes of the grid left out. Waits for the GPU."""
-        cells = np.frombuffer(self._cells.color_attachments[0].read(alignment=1), np.uint8)
+        cells = np.frombuffer(self._cells.color_attachments[0].read(alignment=1), np.uint16)
         return float(np.mean(cells & 3 == 0))
 
     def _judge(self, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
         judge = self._programs.get("refine_cells.frag", scene, ray_plan)
-        for unit, texture in enumerate(self._textures):
-            texture.use(unit)
-            if f"hits{unit}" in judge.program:
-                judge.program[f"hits{unit}"].value = unit
+        bind_samplers(judge.program, {f"hits{k}": texture for k, texture in enumerate(self._textures)})
         judge.program["refine_tolerance"].value = tolerances(scene, ray_plan, size)
         self._cells.use()
         draw(judge)
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for frame in (self._nodes, self._cells, self._mask):
+        for frame in (self._nodes, self._cells, self._sorted):
             if frame is not None:
                 for texture in frame.color_attachments:
                     texture.release()
                 frame.release()
-        for item in (self._masked, self.depth):
+        for item in (self._own, self.classes):
             if item is not None:
                 item.release()
-        self._nodes = self._cells = self._mask = self._masked = self.depth = self._size = None
+        self._nodes = self._cells = self._sorted = self._own = self.classes = self._size = None
         self._textures = []
 
     def _make_targets(self, size: tuple[int, int], count: int) -> None:
@@ -107,10 +116,10 @@ class CoarseGrid:
             texture.repeat_x = texture.repeat_y = False
             self._textures.append(texture)
         self._nodes = self._ctx.framebuffer(self._textures)
-        self._cells = self._ctx.framebuffer([self._ctx.texture(cells, 1, dtype="u1", alignment=1)])
+        self._cells = self._ctx.framebuffer([self._ctx.texture(cells, 1, dtype="u2", alignment=1)])
         self._cells.color_attachments[0].filter = moderngl.NEAREST, moderngl.NEAREST
-        self.depth = self._ctx.depth_texture(size)
-        self._mask = self._ctx.framebuffer([], self.depth)
+        self.classes = self._ctx.depth_texture(size)
+        self._sorted = self._ctx.framebuffer([], self.classes)
         self._size = size
 
 

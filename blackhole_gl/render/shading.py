@@ -16,7 +16,8 @@ class ShadePass:
     """Draws shaders/shade_*.frag and owns the tables they read.
 
     First every pixel is sorted by what it needs, into a depth buffer; then the depth test lets the disk's and the sky's
-    shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are.
+    shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are; a refined hit map
+    brings its own.
 
     Raises:
         FileNotFoundError: a table is missing from assets/.
@@ -37,8 +38,7 @@ class ShadePass:
     def draw(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning). The uniform blocks are bound."""
         self._update_profile(scene)
-        self._sort_pixels(scene, ray_plan, hit_map)
-        self._attach(target)
+        self._attach(target, hit_map.classes or self._sorted_pixels(scene, ray_plan, hit_map))
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
         self._lay_sky(scene, ray_plan, hit_map, target)
@@ -60,7 +60,7 @@ class ShadePass:
         triangle = self._prepared("shade_sky.frag", scene, ray_plan, hit_map)
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
         key = (id(triangle), self._classes_key, scene.camera.azimuth_deg, scene.sky, parameters)
-        if key != self._sky_key:
+        if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(triangle, self._frame)
             return
@@ -99,11 +99,11 @@ class ShadePass:
         triangle.program["triangle_depth"].value = 2.0 * depth - 1.0
         draw(triangle)
 
-    def _sort_pixels(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
+    def _sorted_pixels(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.Texture:
         size = hit_map.textures[0].size
         key = (hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
         if key == self._classes_key:
-            return
+            return self._depth
         if self._classes is None or self._classes.size != size:
             self._release_classes()
             self._depth = self._ctx.depth_texture(size)
@@ -115,14 +115,15 @@ class ShadePass:
         draw(triangle)
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._classes_key = key
+        return self._depth
 
-    def _attach(self, target: moderngl.Framebuffer) -> None:
+    def _attach(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> None:
         """Makes the framebuffer of the target's picture and the pixels' classes, unless it is there."""
         picture = target.color_attachments[0]
-        if self._frame is None or self._frame.color_attachments[0] is not picture:
+        if self._frame is None or self._frame.color_attachments[0] is not picture or self._frame.depth_attachment is not classes:
             if self._frame is not None:
                 self._frame.release()
-            self._frame = self._ctx.framebuffer([picture], self._depth)
+            self._frame = self._ctx.framebuffer([picture], classes)
 
     def _release_classes(self) -> None:
         if self._sky is not None:

@@ -1,7 +1,8 @@
-// The coarse grid of a refined hit map: one exact ray at every REFINE_STEP-th pixel, and a byte for each cell between four of them.
+// The coarse grid of a refined hit map: one exact ray at every REFINE_STEP-th pixel, and 16 bits for each cell between four of them.
 //
 //   bits 0–1            fate of all its pixels; UNRESOLVED: nothing can be interpolated here, every pixel has a ray of its own
 //   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2
+//   bit 8               some crossing may lie on the disk
 //
 // The grid begins one node outside the picture: texel (i, j) of the coarse textures is pixel REFINE_STEP·(i − 1, j − 1), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
@@ -9,6 +10,14 @@
 const uint CROSSING_NONE = 0u;
 const uint CROSSING_NEAR = 1u; // to be interpolated
 const uint CROSSING_FAR = 2u;  // further out than matters, or none
+
+int cell_fate(uint cell) {
+    return int(cell & 3u);
+}
+
+bool cell_sees_disk(uint cell) {
+    return (cell & 256u) != 0u;
+}
 
 uint cell_crossing(uint cell, int n) {
     return (cell >> (2 + 2 * n)) & 3u;
