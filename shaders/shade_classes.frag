@@ -3,7 +3,9 @@
 // do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
 //
 //   0.2  captured or unresolved, crosses the disk     0.6  escaped, no disk
-//   0.4  captured or unresolved, no disk              0.8  escaped, crosses the disk
+//   0.4  escaped, crosses the disk                    0.8  captured or unresolved, no disk
+//
+// So disk is below 0.5 and sky below 0.7: one draw each. The few of 0.2 have no sky, and are black in it.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -19,5 +21,5 @@ void main() {
         cover += crossing_of(hits.crossing[n]).cover;
 #endif
     bool disk = cover > 0.0;
-    gl_FragDepth = hits.fate == ESCAPED ? (disk ? 0.8 : 0.6) : (disk ? 0.2 : 0.4);
+    gl_FragDepth = hits.fate == ESCAPED ? (disk ? 0.4 : 0.6) : (disk ? 0.2 : 0.8);
 }

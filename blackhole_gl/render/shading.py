@@ -5,7 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .. import disk_profile, observer, plan, star_cells
+from .. import blackbody, disk_profile, observer, plan, star_cells
 from ..resources import assets_dir
 from ..scene import Scene
 from .hit_map import HitMap
@@ -47,8 +47,7 @@ class ShadePass:
             ctx.enable(moderngl.BLEND)
             ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
             triangle = self._prepared("shade_disk.frag", scene, ray_plan, hit_map)
-            self._draw_classes(triangle, "<", 0.7)
-            self._draw_classes(triangle, ">", 0.3)
+            self._draw_classes(triangle, 0.5)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.depth_func = "<"
 
@@ -73,7 +72,7 @@ class ShadePass:
 
     def _draw_sky(self, triangle: moderngl.VertexArray, frame: moderngl.Framebuffer) -> None:
         self._clear(frame)
-        self._draw_classes(triangle, "<", 0.5)
+        self._draw_classes(triangle, 0.7)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -93,9 +92,9 @@ class ShadePass:
         bind_samplers(triangle.program, {**hit_map.samplers(), **self._tables})
         return triangle
 
-    def _draw_classes(self, triangle: moderngl.VertexArray, comparison: str, depth: float) -> None:
-        """Draws where `depth` compares so with the pixel's class, as written by shade_classes.frag."""
-        self._ctx.depth_func = comparison
+    def _draw_classes(self, triangle: moderngl.VertexArray, depth: float) -> None:
+        """Draws where the pixel's class, as written by shade_classes.frag, is below `depth`."""
+        self._ctx.depth_func = ">"
         triangle.program["triangle_depth"].value = 2.0 * depth - 1.0
         draw(triangle)
 
@@ -155,7 +154,9 @@ def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
 
 
 def _blackbody_table(ctx: moderngl.Context) -> moderngl.Texture:
-    return _row(ctx, np.load(assets_dir() / "blackbody.npy"))
+    texture = _row(ctx, blackbody.table())
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    return texture
 
 
 def _star_cells(ctx: moderngl.Context) -> moderngl.Texture:

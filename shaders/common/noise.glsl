@@ -10,10 +10,17 @@ uint hash_bits(uint h) {
     return h ^ (h >> 16u);
 }
 
-// A hash of a lattice point. The odd multipliers spread neighbours over the whole word before mixing.
+// Before mixing, odd multipliers spread the neighbours of a lattice point over the whole word. A sum: that of a neighbour is a sum away.
+const uvec3 LATTICE_STEP = uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
+
+uint lattice_word(ivec3 place, uint seed) {
+    uvec3 p = uvec3(place) * LATTICE_STEP;
+    return p.x + p.y + p.z + seed * 0x27d4eb2fu;
+}
+
+// A hash of a lattice point.
 uint hash_lattice(ivec3 place, uint seed) {
-    uvec3 p = uvec3(place) * uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
-    return hash_bits(p.x + p.y + p.z + seed * 0x27d4eb2fu);
+    return hash_bits(lattice_word(place, seed));
 }
 
 // Three numbers in 0…1 (1,024 steps each) from one hash.
@@ -21,25 +28,28 @@ vec3 hash_vec3(uint h) {
     return vec3(uvec3(h, h >> 10u, h >> 20u) & 1023u) * (1.0 / 1023.0);
 }
 
-// What the lattice corner at `corner` adds to the noise at the place `offset` from it.
-float simplex_corner(vec3 offset, ivec3 corner, uint seed) {
+// What a lattice corner adds to the noise at the place `offset` from it; `word` is its lattice_word. The gradient is ten bits a component.
+float simplex_corner(vec3 offset, uint word) {
     float fall = max(0.5 - dot(offset, offset), 0.0); // 0.5: the kernel ends before the next cell, so no jumps
     fall *= fall;
-    return fall * fall * dot(hash_vec3(hash_lattice(corner, seed)) - 0.5, offset);
+    uint h = hash_bits(word);
+    vec3 gradient = vec3(ivec3(uvec3(h, h >> 10u, h >> 20u) & 1023u)) - 511.5;
+    return fall * fall * dot(gradient, offset);
 }
 
 // Gradient noise, mean 0, standard deviation 0.24, within −1…1 (0.95 in a million draws), features about 1 apart.
 float simplex_noise(vec3 p, uint seed) {
-    ivec3 cell = ivec3(floor(p + dot(p, vec3(1.0 / 3.0)))); // skew: cubes to simplices
-    vec3 corner = vec3(cell);
+    vec3 corner = floor(p + dot(p, vec3(1.0 / 3.0))); // skew: cubes to simplices
     vec3 d0 = p - corner + dot(corner, vec3(1.0 / 6.0));
-    vec3 ge = vec3(step(d0.yz, d0.xy), 1.0 - step(d0.z, d0.x)); // x ≥ y, y ≥ z, z > x: the last is strict, or ties have no order
-    ivec3 i1 = ivec3(min(ge, 1.0 - ge.zxy));
-    ivec3 i2 = ivec3(max(ge, 1.0 - ge.zxy));
-    vec3 d1 = d0 - vec3(i1) + 1.0 / 6.0;
-    vec3 d2 = d0 - vec3(i2) + 1.0 / 3.0;
+    // Then along the largest of x, y, z first, along the smallest last. x ≥ y, y ≥ z, z > x: the last is strict, or ties have no order.
+    bvec3 ge = bvec3(d0.x >= d0.y, d0.y >= d0.z, d0.z > d0.x);
+    bvec3 first = bvec3(ge.x && !ge.z, ge.y && !ge.x, ge.z && !ge.y), both = bvec3(ge.x || !ge.z, ge.y || !ge.x, ge.z || !ge.y);
+    vec3 d1 = d0 - vec3(first) + 1.0 / 6.0;
+    vec3 d2 = d0 - vec3(both) + 1.0 / 3.0;
     vec3 d3 = d0 - 0.5;
-    float sum = simplex_corner(d0, cell, seed) + simplex_corner(d1, cell + i1, seed)
-              + simplex_corner(d2, cell + i2, seed) + simplex_corner(d3, cell + 1, seed);
-    return 130.0 * sum;
+    uint word = lattice_word(ivec3(corner), seed);
+    uvec3 w1 = uvec3(first) * LATTICE_STEP, w2 = uvec3(both) * LATTICE_STEP;
+    float sum = simplex_corner(d0, word) + simplex_corner(d1, word + w1.x + w1.y + w1.z)
+              + simplex_corner(d2, word + w2.x + w2.y + w2.z) + simplex_corner(d3, word + (LATTICE_STEP.x + LATTICE_STEP.y + LATTICE_STEP.z));
+    return (130.0 / 1023.0) * sum;
 }

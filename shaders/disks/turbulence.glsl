@@ -28,15 +28,17 @@ help = "How fast alternate octaves slide past each other, forwards and backwards
 ---*/
 #include "common/noise.glsl"
 #include "common/disk_orbit.glsl"
+#include "common/rotation.glsl"
 
 // The noise lives on a cylinder: (cos φ, sin φ)·around and ln r·across. So it has no seam at φ = ±π, and its eddies keep
 // their shape at every radius. The octaves' factors are exponentials of noise: their product is log-normal, as the density
 // of a turbulent flow is, never negative, and its mean is kept at 1 whatever the number of octaves and the pixel's size.
 const float NOISE_DEVIATION = 0.24; // of simplex_noise
 
-vec2 turned(vec2 heading, float angle) {
-    float c = cos(angle), s = sin(angle);
-    return vec2(c * heading.x - s * heading.y, s * heading.x + c * heading.y);
+// `heading` turned back by angle + slide (xy) and by angle − slide (zw).
+vec4 turned_both(vec2 heading, float angle, float slide) {
+    vec2 back = rotate(heading, cos_sin(-angle)), apart = cos_sin(slide);
+    return vec4(rotate(back, vec2(apart.x, -apart.y)), rotate(back, apart));
 }
 
 DiskMatter disk_layer_turbulence(DiskMatter matter) {
@@ -45,8 +47,8 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     vec2 ages = shear_phase.xy;
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw)); // two patterns mixed: the contrast of one
     // Heading in each pattern's own, unturned frame: xy for odd octaves, zw for even ones, which slide the other way.
-    vec4 heading_a = vec4(turned(matter.heading, -(rate + slide) * ages.x), turned(matter.heading, -(rate - slide) * ages.x));
-    vec4 heading_b = vec4(turned(matter.heading, -(rate + slide) * ages.y), turned(matter.heading, -(rate - slide) * ages.y));
+    vec4 heading_a = turned_both(matter.heading, rate * ages.x, slide * ages.x);
+    vec4 heading_b = turned_both(matter.heading, rate * ages.y, slide * ages.y);
     vec2 winding = 1.5 * abs(rate) * ages; // |dφ/d ln r| that the shear has drawn out
 
     float across = 8.0 * disk_noise_scale;
@@ -54,22 +56,20 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     float contrast = disk_turbulence_contrast * disk_density_gain / 9200.0;
     float height = log(matter.radius) * across;
     float exponent = 0.0, variance = 0.0;
-    int index = 0;
-    do { // octave i = 1, 2, … of pattern a, then of pattern b, in turn
-        bool second = (index & 1) == 1;
-        int octave = (index >> 1) + 1;
+    // Features of frequency 1 in a pixel, of the two patterns.
+    vec2 grain = max(vec2(matter.footprint.x * across), (matter.footprint.y + winding * matter.footprint.x) * around);
+    vec2 strengths;
+    int octave = 1;
+    do {
         float frequency = float(octave * octave);
-        vec4 headings = second ? heading_b : heading_a;
-        vec2 heading = (octave & 1) == 1 ? headings.xy : headings.zw;
-        // Detail finer than two pixels is faded out; it would only flicker.
-        float turn_step = matter.footprint.y + (second ? winding.y : winding.x) * matter.footprint.x;
-        float detail = frequency * max(matter.footprint.x * across, turn_step * around);
-        float strength = contrast * (1.0 - smoothstep(0.3, 0.8, detail)) * (second ? weights.y : weights.x);
-        uint seed = uint(second ? shear_seed.y : shear_seed.x) * 16u + uint(octave);
-        exponent += strength * simplex_noise(vec3(heading * around, height) * frequency, seed);
-        variance += strength * strength;
-        ++index;
-    } while (index < 2 * int(disk_turbulence_octaves));
+        vec4 headings = (octave & 1) == 1 ? vec4(heading_a.xy, heading_b.xy) : vec4(heading_a.zw, heading_b.zw);
+        strengths = contrast * weights * (1.0 - smoothstep(0.3, 0.8, frequency * grain)); // detail finer than two pixels would only flicker
+        uvec2 seeds = uvec2(shear_seed.xy) * 16u + uint(octave);
+        exponent += strengths.x * simplex_noise(vec3(headings.xy * around, height) * frequency, seeds.x)
+                  + strengths.y * simplex_noise(vec3(headings.zw * around, height) * frequency, seeds.y);
+        variance += dot(strengths, strengths);
+        ++octave;
+    } while (octave <= int(disk_turbulence_octaves) && strengths != vec2(0.0)); // where one octave is too fine, so are all that follow
     matter.density *= exp(exponent - 0.5 * NOISE_DEVIATION * NOISE_DEVIATION * variance);
     return matter;
 }
