@@ -17,7 +17,7 @@ from .programs import Programs, bind_samplers, draw
 _BEYOND_DISK = 1.25
 
 # Between the depth of pixels with rays of their own and all others in shaders/refine_classes.frag.
-_OWN_RAYS = 0.85
+_OWN_RAYS = 0.15
 
 
 class CoarseGrid:
@@ -63,12 +63,14 @@ class CoarseGrid:
             self._own = self._ctx.framebuffer(textures, self.classes)
         self._own.use()
         self._own.depth_mask = False
-        self._ctx.enable(moderngl.DEPTH_TEST)  # "<", against the class of pixels with rays of their own
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = ">"  # pixels with rays of their own are nearer than this, all others farther
         triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
         triangle.program["triangle_depth"].value = 2.0 * _OWN_RAYS - 1.0
         draw(triangle)
         triangle.program["triangle_depth"].value = 0.0
         self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""
