@@ -56,6 +56,15 @@ vec2 disk_shift_s1(float r, float lambda) {
     return vec2(1.0, (1.0 + sqrt(v2) * disk_azimuthal_cosine(r, lambda)) * inversesqrt(1.0 - v2));
 }
 
+// λ, no larger along the orbit than light that passes r in the plane can have: the root of (r² + a² − aλ)² = Δ(λ − a)², M = 1
+// (Bardeen, Press & Teukolsky 1972). A pixel so wide that it shows a disk far from its own crossing brings a λ from there.
+float possible_lambda(float r, float lambda) {
+    float rm = 2.0 * r, a = turned_spin();
+    float root = sqrt(max(rm * rm - 2.0 * rm + a * a, 0.0));
+    float most = (rm * rm + a * a + a * root) / max(a + root, 1e-6);
+    return disk_spin_sign * min(disk_spin_sign * lambda, most);
+}
+
 // (g₀, δ) by the formula the scene names.
 vec2 disk_shift(float r, float lambda) {
 #if DISK_FREQUENCY_SHIFT_S0
@@ -63,7 +72,7 @@ vec2 disk_shift(float r, float lambda) {
 #elif DISK_FREQUENCY_SHIFT_S1
     return disk_shift_s1(r, lambda);
 #else
-    return disk_shift_exact(r, lambda);
+    return disk_shift_exact(r, possible_lambda(r, lambda));
 #endif
 }
 

@@ -91,3 +91,16 @@ def test_shifts_are_finite_everywhere(shifts, function: str) -> None:
         for spin in (0.0, 0.9999, -0.9999):
             got = shifts(spin, 1.0, radius, np.full_like(radius, lam), f"{function}(c.x, c.y)")
             assert np.isfinite(got).all() and (got >= 0.0).all()
+
+
+@pytest.mark.parametrize("spin", [0.0, 0.9, 0.998, -0.6])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_light_that_cannot_be_there_is_shifted_as_the_most_that_can(shifts, spin: float, sense: float) -> None:
+    """λ up to ten times what r allows; 2e-4 as rounding of λ near its bound is divided by 1 − Ωλ, which is 0.06 at the ISCO of the fastest hole."""
+    a, count = spin * sense, SIZE[0] * SIZE[1]
+    radius = (0.5 * isco(a) * np.geomspace(1.001, 20.0, count)).astype(np.float32)
+    most = lambda_bounds(2.0 * radius.astype(float), a)[1]
+    beyond = (sense * most * np.linspace(1.0, 10.0, count)).astype(np.float32)
+    at_most = shifts(spin, sense, radius, (sense * most).astype(np.float32), "disk_shift(c.x, c.y)")
+    np.testing.assert_allclose(shifts(spin, sense, radius, beyond, "disk_shift(c.x, c.y)"), at_most, rtol=2e-4)
+    assert np.all(at_most > 0.0) and np.all(np.isfinite(at_most))

@@ -71,3 +71,16 @@ def test_odd_sizes(renderer: Renderer, size: tuple[int, int]) -> None:
 def test_a_picture_of_one_pixel_looks_at_the_hole(renderer: Renderer) -> None:
     renderer.render(presets.load(["schwarzschild"], {"disk.enabled": False}), 0.0, (1, 1))
     assert renderer.hits().fate[0, 0] == 2
+
+
+@pytest.mark.parametrize("inclination", [60.0, 80.0, 89.0])
+def test_from_afar_a_disk_is_no_brighter(renderer: Renderer, inclination: float) -> None:
+    """Radiance does not grow with distance. Pixels on the far plane's horizon, thousands of r_s wide, once took the g-factor of impossible light."""
+
+    def brightest(distance: float) -> float:
+        scene = presets.load(["kerr"], {"camera.distance": distance, "camera.inclination_deg": inclination, "sky.enabled": False})
+        renderer.render(scene, 0.0, (320, 180))
+        return float(renderer.radiance().max())
+
+    near = brightest(20.0)
+    assert all(brightest(distance) <= near for distance in (300.0, 1000.0, 1e4))
