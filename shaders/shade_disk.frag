@@ -68,7 +68,7 @@ vec4 pass_disk(vec4 light, Crossing crossing, float lambda, float energy) {
     DiskMatter matter = DiskMatter(r, heading, vec2(length(radial), length(around)) / r, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
 
-    vec2 look = disk_appearance(matter.density) * crossing.cover;
+    vec2 look = disk_appearance(matter.density) * disk_cover(crossing);
     vec3 emission = disk_radiance(clamp(r, disk_r_in, disk_r_out), lambda, energy);
     return vec4(light.rgb + light.a * look.x * emission, light.a * (1.0 - look.y));
 }
@@ -77,17 +77,21 @@ void main() {
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
 
-    // The crossings that count come first, in order; at least one does in every pixel that gets here.
+    // The crossings that may count come first, in order; at least one does in every pixel that gets here.
     Crossing first = crossing_of(hits.crossing[0]), second = crossing_of(hits.crossing[1]), third = crossing_of(hits.crossing[2]);
-    if (second.cover <= 0.0) { second = third; third.cover = 0.0; }
-    if (first.cover <= 0.0) { first = second; second = third; third.cover = 0.0; }
+    bool more = may_be_covered(second), last = may_be_covered(third);
+    if (!more) { second = third; more = last; last = false; }
+    if (!may_be_covered(first)) { first = second; second = third; more = last; last = false; }
 
     vec4 light = vec4(0.0, 0.0, 0.0, 1.0);
+    bool left;
     do {
         light = pass_disk(light, first, hits.lambda, energy);
+        left = more;
         first = second;
         second = third;
-        third.cover = 0.0;
-    } while (first.cover > 0.0);
+        more = last;
+        last = false;
+    } while (left);
     radiance = vec4(clamp(light.rgb, 0.0, BRIGHTEST), light.a);
 }

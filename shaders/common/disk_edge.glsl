@@ -2,28 +2,38 @@
 
 // A crossing of the disk's plane with its changes from this pixel to the next.
 struct Crossing {
-    vec2 point;   // r·(cos φ, sin φ), r_s
+    vec2 point;   // r·(cos φ, sin φ), r_s; zero without a crossing
     vec2 right;   // change to the pixel on the right
     vec2 up;      // change to the pixel above
-    float cover;  // 0…1: how much of the pixel lies between the disk's edges; 0 without a crossing
 };
 
 // A neighbour without such a crossing means that the rays part here (near the critical curve): a wide change stands in.
 // Takes differences between pixels, so all pixels must run it: keep it outside every branch.
 Crossing crossing_of(vec2 point) {
     float present = point == vec2(0.0) ? 0.0 : 1.0;
-    Crossing crossing = Crossing(point, dFdx(point), dFdy(point), 0.0);
+    Crossing crossing = Crossing(point, dFdx(point), dFdy(point));
     if (dFdx(present) != 0.0) crossing.right = point;
     if (dFdy(present) != 0.0) crossing.up = point;
+    return crossing;
+}
 
-    // The pixel's footprint is a stretch of radii about r; its share inside the disk is what is covered. So a ring thinner
-    // than a pixel is as bright as it is thin.
-    float r = max(length(point), 1e-6);
-    vec2 radial = vec2(dot(crossing.right, point), dot(crossing.up, point)) / r;
+// Whether the disk may cover any of the pixel: false only where `disk_cover` is 0, and a third of its cost.
+bool may_be_covered(Crossing crossing) {
+    vec2 change = abs(crossing.right) + abs(crossing.up);
+    float reach = 0.5 * (change.x + change.y) + 1e-4 * disk_r_out; // at least the half width below
+    float inner = max(disk_r_in - reach, 0.0), outer = disk_r_out + reach;
+    float r2 = dot(crossing.point, crossing.point);
+    return r2 > inner * inner && r2 < outer * outer;
+}
+
+// 0…1: how much of the pixel lies between the disk's edges; 0 without a crossing. The pixel's footprint is a stretch of radii about r;
+// its share inside the disk is what is covered. So a ring thinner than a pixel is as bright as it is thin.
+float disk_cover(Crossing crossing) {
+    float r = max(length(crossing.point), 1e-6);
+    vec2 radial = vec2(dot(crossing.right, crossing.point), dot(crossing.up, crossing.point)) / r;
     float half_width = 0.5 * max(length(radial), 1e-5 * r);
     float inside = min(disk_r_out, r + half_width) - max(disk_r_in, r - half_width);
-    crossing.cover = present * clamp(inside / (2.0 * half_width), 0.0, 1.0);
-    return crossing;
+    return crossing.point == vec2(0.0) ? 0.0 : clamp(inside / (2.0 * half_width), 0.0, 1.0);
 }
 
 // Whether a point of the plane lies between the disk's edges; without any width, so for views and not for pictures.

@@ -1,0 +1,42 @@
+"""Pixels are sorted by what they need, so that the disk's and the sky's shaders run only there: no pixel may lose its light by it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl import presets
+from blackhole_gl.render.frame import Renderer
+
+SIZE = (240, 135)
+VIEWS = {
+    "default": {},
+    "steep": {"camera.inclination_deg": 25.0},
+    "edge on": {"camera.inclination_deg": 89.5},
+    "close": {"camera.distance": 4.0, "camera.fov_deg": 90.0},
+    "a disk of a few pixels": {"camera.distance": 3000.0, "camera.fov_deg": 20.0},
+}
+
+
+def _radiance(renderer: Renderer, values: dict, **how: bool) -> np.ndarray:
+    renderer.hit_map.forget()
+    renderer.render(presets.load(["kerr"], values), 30.0, SIZE, **how)
+    return renderer.radiance()
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_refined_map_shows_the_picture_of_the_exact_one(renderer: Renderer, view: str) -> None:
+    """Refined maps bring classes of their own. 2 % of the pixels: hits are half a pixel off at most, which sharp filaments and stars show."""
+    exact, refined = (_radiance(renderer, VIEWS[view], progressive=how) for how in (False, True))
+    different = np.abs(refined - exact).max(axis=-1) > 0.02 + 0.2 * exact.max(axis=-1)
+    assert different.mean() < 0.02
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_disk_and_sky_are_drawn_wherever_there_is_light(renderer: Renderer, view: str) -> None:
+    """Of an additive disk the picture is the disk's alone and the sky's alone, added up. Half floats: 2⁻¹⁰."""
+    clear = {**VIEWS[view], "disk.compositing": "additive"}
+    both = _radiance(renderer, clear)
+    disk, sky = _radiance(renderer, {**clear, "sky.enabled": False}), _radiance(renderer, {**clear, "disk.enabled": False})
+    assert disk.max() > 0.0 and sky.max() > 0.0
+    np.testing.assert_allclose(both, disk + sky, rtol=2e-3, atol=1e-4)
