@@ -2,7 +2,7 @@
 
     python tools/try_closed_kerr.py [--nodes 4]
 
-Nothing of the viewer uses this: it makes the figures of "Closed-form Kerr: tried, not yet a method" in docs/performance.md. Polar motion:
+Nothing of the viewer uses this: it makes the figures of "Closed-form Kerr: tried and left out" in docs/performance.md. Polar motion:
 Jacobi's cn as quotients of theta functions of small nome. Radial motion: Weierstrass' ℘ from the invariants of the quartic R(w),
 no roots but one of its resolvent; the Mino time to infinity by Carlson's R_F after one halving that knows the sign of ℘'.
 Dragging: Gauss–Legendre in Mino time over each piece between crossings. Rays to every scene of the chart whose hole is exact Kerr.
