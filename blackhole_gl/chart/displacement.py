@@ -1,0 +1,40 @@
+"""How far one hit map of a scene lies from another, in pixels of the picture."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .. import plan
+from ..render.hit_map import HitArrays
+from ..scene import Scene
+
+
+def displacement_px(scene: Scene, found: HitArrays, exact: HitArrays) -> np.ndarray:
+    """(height, width) displacement in pixels as the scene's tolerance counts it.
+
+    Of escape directions where both escape, or of crossings on the disk as wide as its distance makes them, whichever is more.
+    """
+    pixel = math.radians(scene.camera.fov_deg) / found.fate.shape[0]
+    outer = plan.effective_disk_radii(scene)[1]
+    distance = outer if math.isinf(scene.camera.distance) else max(scene.camera.distance, outer)
+    escaped = (found.fate == 1) & (exact.fate == 1)
+    moved = np.where(escaped, np.linalg.norm(found.direction - exact.direction, axis=-1), 0.0)
+    for n in range(3):
+        a, b = found.crossing[..., n, :], exact.crossing[..., n, :]
+        shown = _on_disk(a, outer) | _on_disk(b, outer)
+        moved = np.maximum(moved, np.where(shown, np.linalg.norm(a - b, axis=-1) / distance, 0.0))
+    return moved / pixel
+
+
+def _on_disk(crossing: np.ndarray, outer: float) -> np.ndarray:
+    r = np.linalg.norm(crossing, axis=-1)
+    return (r > 0.0) & (r <= outer)
+
+
+def beside_an_edge(fate: np.ndarray) -> np.ndarray:
+    """Pixels (height, width) that have one of another fate among their eight neighbours."""
+    padded = np.pad(fate, 1, mode="edge")
+    around = [padded[1 + dy : padded.shape[0] - 1 + dy, 1 + dx : padded.shape[1] - 1 + dx] for dy in (-1, 0, 1) for dx in (-1, 0, 1)]
+    return np.any([other != fate for other in around], axis=0)
