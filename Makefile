@@ -7,12 +7,13 @@ PRESET      ?=
 PYTEST_ARGS ?=
 CHART_ARGS  ?=
 STABILITY_ARGS ?=
+FLIGHT_ARGS ?=
 
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow gallery chart stability clean
+.PHONY: help setup view test test-slow gallery chart stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -45,6 +46,10 @@ test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K
 stability: ## every method through the cases where methods fail: docs/stability.md; STABILITY_ARGS="--only kerr"
 	@$(SETUP) run
 	$(BIN)/python tools/make_stability_page.py $(STABILITY_ARGS)
+
+flight: ## ten seconds round the hole, refined and exact: docs/data/flight.csv and its plot; FLIGHT_ARGS="-p m87_like --fps 2 --out ."
+	@$(SETUP) chart
+	$(BIN)/python tools/fly.py $(FLIGHT_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output

@@ -12,6 +12,7 @@ from PIL import Image
 from .. import catalogue
 from ..output.files import write_whole
 from .critical import Point
+from .flight import FlightFrame
 from .measure import Row
 from .pareto import front
 from .scenes import SHOWN, ChartScene
@@ -152,6 +153,41 @@ def draw_sizes(path: Path, costs: Sequence[Cost]) -> None:
     left.set(xscale="log", yscale="log", xlabel="pixels", ylabel="trace time [ms]")
     right.set(xscale="log", yscale="log", xlabel="pixels", ylabel="trace time / flat frame")
     left.legend(fontsize=7, frameon=False)
+    figure.tight_layout()
+    _save(pyplot, figure, path)
+
+
+def draw_flight(path: Path, frames: Sequence[FlightFrame], tolerance: float) -> None:
+    """Frame by frame: displacement in pixels, ꟻLIP, the pixels traced, and where the camera is.
+
+    Args:
+        tolerance: in pixels.
+    """
+    pyplot = library()
+    figure, (moved, looks, traced, camera) = pyplot.subplots(4, 1, figsize=(10.5, 9.0), sharex=True, height_ratios=(3, 3, 2, 2))
+    seconds = [frame.time for frame in frames]
+
+    def curve(axes, key: str, label: str, colour: str, scale: float = 1.0) -> None:
+        axes.plot(seconds, [scale * getattr(frame, key) for frame in frames], color=colour, label=label)
+
+    curve(moved, "largest_px", "largest", _COLOURS[1])
+    curve(moved, "px_99", "99 % of the pixels within", _COLOURS[0])
+    moved.axhline(tolerance, color="black", ls="--", label="tolerance")
+    moved.set(ylabel="displacement [pixels]", ylim=(0.0, 1.15 * max(tolerance, *(frame.largest_px for frame in frames))))
+    curve(looks, "flip_largest", "largest pixel", _COLOURS[1])
+    curve(looks, "flip_mean", "mean", _COLOURS[0])
+    looks.set(ylabel="FLIP", yscale="log")
+    curve(traced, "own_rays", "pixels with rays of their own", _COLOURS[2], 100.0)
+    traced.set(ylabel="% of the picture", ylim=(0.0, 100.0))
+    curve(camera, "inclination_deg", "inclination", _COLOURS[0])
+    camera.set(ylabel="inclination [°]", xlabel="time [s]", yticks=(0, 30, 60, 90, 120), ylim=(-5, 155))
+    distance = camera.twinx()
+    curve(distance, "distance", "distance (right)", _COLOURS[4])
+    distance.set(ylabel="distance [r_s]", yscale="log", ylim=(1.2, 60.0))
+    distance.grid(False)
+    for axes in (moved, looks, traced):
+        axes.legend(fontsize=7, frameon=False, ncols=3, loc="upper right")
+    camera.legend(handles=[*camera.get_lines(), *distance.get_lines()], fontsize=7, frameon=False, ncols=2, loc="upper right")
     figure.tight_layout()
     _save(pyplot, figure, path)
 

@@ -1,0 +1,101 @@
+"""The flight of chart/flight.py: refined frames against exact ones, and what happens from frame to frame."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from blackhole_gl import presets
+from blackhole_gl.chart import flight
+from blackhole_gl.chart.flight import FlightFrame
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import Scene
+
+COUNT = round(flight.SECONDS * flight.FPS)
+SMALL, WHOLE = (320, 180), (640, 360)
+
+# Frames of the whole flight. Those where its displacement, its wrong fates and its ꟻLIP are largest are among them; 10, 60, 160 and 210 lie in the
+# disk's plane, 110 and 260 over the pole.
+FRAMES = (0, 10, 30, 60, 80, 110, 135, 150, 160, 185, 210, 235, 260, 285)
+
+# Half of the mean ꟻLIP (0.031 to 0.039 in this flight) of a frame against itself one grey level lighter: less than the screen's own steps show.
+LARGEST_MEAN_FLIP = 0.015
+
+# Grey levels of 255, mean over a block of 8×8 pixels: a block that came and went by more could be seen, as one grey level is the least a screen shows.
+BLOCK = 8
+LARGEST_FLICKER = 1.0
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scene:
+    """What the window opens with: a marched Kerr hole."""
+    return presets.load()
+
+
+def assert_kept(frame: FlightFrame, tolerance: float) -> None:
+    assert frame.largest_px <= tolerance, frame
+    assert frame.fates_off_edge == 0, frame
+    assert frame.flip_mean <= LARGEST_MEAN_FLIP, frame
+
+
+@pytest.mark.parametrize("index", FRAMES)
+def test_a_refined_frame_is_the_exact_one_within_the_tolerance(renderer: Renderer, scene: Scene, index: int) -> None:
+    frame = flight.measure(renderer, flight.camera_at(scene, index / COUNT), flight.SECONDS * index / COUNT, SMALL)
+    assert frame.own_rays < 0.7, "nearly nothing was interpolated"
+    assert_kept(frame, scene.rays.tolerance)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_no_frame_of_the_whole_flight_is_beyond_the_tolerance(renderer: Renderer, scene: Scene) -> None:
+    for frame in flight.fly(renderer, scene, WHOLE, COUNT):
+        assert_kept(frame, scene.rays.tolerance)
+
+
+def test_the_flight_goes_where_it_is_said_to_go(scene: Scene) -> None:
+    """Through the equator, over the pole, in to 1.6 r_s and out, turning all the while, without a jerk."""
+    cameras = [flight.camera_at(scene, index / COUNT).camera for index in range(COUNT + 1)]
+    tilt = np.array([camera.inclination_deg for camera in cameras])
+    assert tilt[0] < 90.0 and tilt.min() == pytest.approx(0.0, abs=1e-9) and tilt.max() == pytest.approx(120.0, abs=0.1)
+    assert np.sum(np.diff(np.sign(np.round(tilt - 90.0, 9))) != 0) >= 4
+    distance = np.array([camera.distance for camera in cameras])
+    assert distance[0] == distance[-1] == scene.camera.distance and distance.min() == distance[COUNT // 2] == pytest.approx(flight.NEAREST)
+    assert np.all(np.diff([camera.azimuth_deg for camera in cameras]) > 0.0)
+    for path in (tilt, np.log(distance), np.log([camera.fov_deg for camera in cameras])):
+        assert np.abs(np.diff(path, 2)).max() < 0.1 * np.abs(np.diff(path)).max()
+
+
+def test_exact_pictures_have_nothing_to_compare(renderer: Renderer, scene: Scene) -> None:
+    with pytest.raises(ValueError, match="no refinement"):
+        flight.drawn(renderer, scene.with_values({"rays.refine": False}), 0.0, SMALL)
+
+
+@pytest.mark.parametrize("index, step_px", [(0, 0.1), (40, 0.25), (110, 0.1), (165, 0.1), (200, 0.1)])
+def test_refinement_adds_no_shimmer(renderer: Renderer, scene: Scene, index: int, step_px: float) -> None:
+    """The camera tilts by a part of a pixel a frame, so that pixels pass from cell to cell; the disk stands still.
+
+    The whole picture changes by no more than the exact one, to 2 %: what is left when the noise of 8 bits is counted in both. No block flickers more than
+    the exact one's by what would show. Both are seen in the change from frame to frame and in the change of that, where what comes and goes is not hidden by
+    what moves.
+    """
+    start = flight.camera_at(scene, index / COUNT)
+    turn = step_px * start.camera.fov_deg / SMALL[1]
+    refined, exact = [], []
+    for step in range(6):
+        tilted = replace(start, camera=replace(start.camera, inclination_deg=start.camera.inclination_deg + turn * step))
+        pair = flight.drawn(renderer, tilted, 0.0, SMALL)
+        refined.append(pair.refined)
+        exact.append(pair.exact)
+    for order in (1, 2):
+        change, true_change = (np.abs(np.diff(np.array(frames, float), order, axis=0)).mean(axis=-1) for frames in (refined, exact))
+        assert change.mean() <= 1.02 * true_change.mean()
+        assert np.max(_blocks(change) - _blocks(true_change)) <= LARGEST_FLICKER
+
+
+def _blocks(frames: np.ndarray) -> np.ndarray:
+    """(frames, height, width) → means over whole blocks."""
+    count, height, width = frames.shape
+    rows, columns = height // BLOCK, width // BLOCK
+    return frames[:, : rows * BLOCK, : columns * BLOCK].reshape(count, rows, BLOCK, columns, BLOCK).mean(axis=(2, 4))
