@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time as clock
+
 from imgui_bundle import hello_imgui, imgui
 
 from . import theme
@@ -12,6 +14,8 @@ _FLAGS = imgui.WindowFlags_
 _STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
 _FIXED = (_STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
 UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
+
+PREPARING_AFTER_S = 0.3  # a note that comes and goes at once would only flicker
 
 Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
 
@@ -40,8 +44,11 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
     imgui.end()
 
 
-def messages(state: WindowState, corner: Corner, width: float) -> None:
+def messages(state: WindowState, picture: Picture | None, corner: Corner, width: float) -> None:
     """Errors and the notice, with their bottom left at `corner`, at most `width` wide; errors stay until mended or dismissed."""
+    since = picture.preparation.since if picture else None
+    if since is not None and clock.perf_counter() - since > PREPARING_AFTER_S:
+        corner = _message("Preparing", "Preparing the programs of this scene …", corner, width, is_error=False)
     if state.shader_error:
         corner = _message("Shader", state.shader_error, corner, width, is_error=True)
     if state.render_error:

@@ -9,8 +9,14 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from ..render.programs import Unready
 from ..scene import Scene
-from .resolution import Resolution
+from .preparation import Preparation
+from .resolution import COARSEST, Resolution
+
+# A scene whose programs have not drawn yet is drawn coarse first, whether rays may be interpolated or not: the first draw makes drivers finish
+# what compiling began, and takes its time however few the pixels. After that nothing is missing.
+_REHEARSALS = (True, False)
 
 # The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
 _VERTEX = """#version 330 core
@@ -70,6 +76,7 @@ class Picture:
     Args:
         gl: the window's context.
         renderer: what makes pictures; see ``render.frame.Renderer``.
+        preparation: when programs may be compiled.
 
     Attributes:
         report: of the last picture rendered, a ``render.frame.FrameReport``; None before the first.
@@ -77,9 +84,10 @@ class Picture:
         scale: width and height of the last picture over those of its area.
     """
 
-    def __init__(self, gl: moderngl.Context, renderer: Any):
+    def __init__(self, gl: moderngl.Context, renderer: Any, preparation: Preparation):
         self._gl = gl
         self.renderer = renderer
+        self.preparation = preparation
         self.report: Any = None
         self.rays: RayFigures | None = None
         self.scale = 1.0
@@ -91,7 +99,13 @@ class Picture:
         self._resolution = Resolution()
         self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
         self._took_ms = 0.0
+        self._rehearsed = 0  # of `_REHEARSALS`, and one more when a whole picture has followed
         self._rays_stale = True
+
+    @property
+    def is_current(self) -> bool:
+        """Whether the picture is of the scene of the last `update`, and neither an earlier one nor a rehearsal."""
+        return self._rehearsed > len(_REHEARSALS)
 
     def forget(self) -> None:
         """Makes the next `update` render, whatever it is given."""
@@ -114,22 +128,49 @@ class Picture:
         Returns:
             Whether a picture was rendered.
         """
-        self.scale = self._scale_for(scene, moving, camera_moving)
-        size = area.scaled(self.scale)
+        now = clock.perf_counter()
+        if self.preparation.waits(now):
+            return False
+        rehearsing = self._rehearsed < len(_REHEARSALS)
+        scale = COARSEST[True] if rehearsing else self._scale_for(scene, now, moving, camera_moving)
+        size = area.scaled(scale)
         wanted = (scene, time, size)
-        if wanted == self._made_of and self.is_sharp:
+        if wanted == self._made_of and self.is_sharp and not rehearsing:
             self._begun = None
             return False
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
-        progressive = camera_moving or (not self.is_sharp and not exact)
-        self.report = report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
+        progressive = _REHEARSALS[self._rehearsed] if rehearsing else camera_moving or not (exact or self.is_current and self.is_sharp)
+        self.renderer.programs.deadline = self.preparation.deadline(now)
+        try:
+            report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
+        except Unready:
+            self.preparation.missed(scene, area.scaled(COARSEST[True]), now)
+            self.renderer.hit_map.forget()  # it may be half drawn
+            self._made_of, self._rehearsed = None, 0
+            return False
+        except Exception:
+            self.preparation.over()
+            raise
         self._shown, self._spare = self._spare, self._shown
+        self.report, self.scale = report, scale
+        self._rays_stale |= report.traced
+        if self.is_current:
+            self._learn(report)
+        elif rehearsing:
+            self._begun = None
+            self._rehearsed += 1
+        else:
+            self._rehearsed += 1
+            self._resolution = Resolution()  # what is known is of another scene
+            self.preparation.over()
+        return True
+
+    def _learn(self, report: Any) -> None:
+        """Takes in what the picture cost."""
         self._took_ms = report.trace_ms + report.shade_ms + report.post_ms
         if not report.sharpened:
             self._resolution.record(self.scale, self._took_ms, traced=report.traced)
-        self._rays_stale |= report.traced
-        return True
 
     def count_rays(self) -> None:
         """Brings `rays` up to date with the hit map. It is read back whole, so this is for frames in which no rays are traced."""
@@ -143,12 +184,12 @@ class Picture:
         data = np.frombuffer(self._shown.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
-    def _scale_for(self, scene: Scene, moving: bool, camera_moving: bool) -> float:
+    def _scale_for(self, scene: Scene, now: float, moving: bool, camera_moving: bool) -> float:
         if not moving:
             self._begun = None
             self._resolution.rest()
             return 1.0
-        now, elapsed = clock.perf_counter(), 0.0
+        elapsed = 0.0
         if self._begun is not None:
             elapsed = now - self._begun
             self._resolution.record_rest(1e3 * elapsed - self._took_ms)

@@ -70,12 +70,12 @@ class Resolution:
         return 2.0 ** (-self._step[camera_moving] / STEPS_PER_OCTAVE)
 
     def _wanted(self, target_fps: float, camera_moving: bool) -> float:
-        """Steps below full size that the budget asks for; infinite before the first picture: a coarse one comes sooner."""
+        """Steps below full size that the budget asks for."""
         known = self._cost[camera_moving]
-        if not camera_moving and any(self._cost.values()) and len(known) < 2:
+        if camera_moving and not known:
+            return math.inf  # a coarse picture comes sooner
+        if not camera_moving and len(known) < 2:
             return 0.0  # the first picture with kept rays also keeps its sky, and says little of what the next will cost
-        if not known:
-            return math.inf
         frame_ms = 1e3 / (target_fps if camera_moving else REST_SHARE * target_fps)
         # Waiting for the screen varies from frame to frame and is no work: the least of the last few is what must be.
         budget = max(frame_ms - min(self._other_ms, default=0.0), _LEAST_SHARE * frame_ms)

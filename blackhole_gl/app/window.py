@@ -19,8 +19,10 @@ from .full_screen import FullScreen
 from .live_chart import LiveChart
 from .panel import Panel
 from .picture import Area, Picture
+from .preparation import Preparation
 from .shortcuts import Shortcuts
 from .state import WindowState
+from .warm_up import WarmUp
 
 TITLE = "Blackhole GL"
 PANEL = "Parameters"
@@ -28,6 +30,7 @@ SIZE = (1280, 800)
 _DOCK_SPACE = "MainDockSpace"
 _PANEL_SHARE = 0.30  # of the window's width
 _IDLE_FPS = 4.0  # often enough to notice an edited shader within a second
+_PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
 _LONGEST_FRAME_S = 0.5
 _RELOAD_PERIOD_S = 0.5
@@ -98,6 +101,7 @@ def run(
             immapp.manual_render.render()
     finally:
         live.close()
+        window.warm_up.close()
         immapp.manual_render.tear_down()
     return window.state
 
@@ -178,6 +182,7 @@ class Window:
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
+        self.warm_up = WarmUp()
         self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
@@ -201,16 +206,17 @@ class Window:
     def start(self) -> None:
         """Once, when the context is there."""
         self._gl = moderngl.create_context(require=330)
-        self.picture = Picture(self._gl, self._make_renderer(self._gl))
+        self.picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
         self._full_screen = FullScreen(_glfw_window())
 
     def before_frame(self) -> None:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
-        sharp = self.picture is None or self.picture.is_sharp
-        busy = self.state.is_moving or not sharp or self.live_chart.busy(self.state)
-        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or not busy)
+        busy = self.state.is_moving or self.live_chart.busy(self.state) or self._has_more_to_draw()
+        preparing = self.picture is not None and self.picture.preparation.since is not None
+        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
+        params.fps_idling.fps_idle = _PREPARING_FPS if preparing else _IDLE_FPS
         self._full_screen.set(self.state.full_screen)
 
     def frame(self) -> None:
@@ -227,7 +233,7 @@ class Window:
         if self.picture is not None:
             overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         view_scale.draw(state, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
-        overlay.messages(state, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
+        overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
 
@@ -270,6 +276,10 @@ class Window:
         scale = io.display_framebuffer_scale
         return _View(left, top, width, height, Area.of_screen(left, top, width, height, io.display_size.y, (scale.x, scale.y)))
 
+    def _has_more_to_draw(self) -> bool:
+        """Whether the picture that rests is still to come."""
+        return self.state.render_error is None and not (self.picture and self.picture.is_current and self.picture.is_sharp)
+
     def _is_minimised(self) -> bool:
         return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
 
@@ -303,10 +313,15 @@ class Window:
             rendered = False
         if rendered:
             state.render_error = None
-        if state.show_overlay and not (rendered and self.picture.report.traced):
+        failed = state.render_error is not None
+        if not (failed or self.picture.is_current):
+            return
+        if self._may_idle:
+            self.warm_up.start()
+        if state.show_overlay and not failed and not (rendered and self.picture.report.traced):
             self.picture.count_rays()
         wanted, state.picture_wanted = state.picture_wanted, False
-        if wanted and state.render_error is None:
+        if wanted and not failed:
             scene_files.save_picture(state, self.picture.read_rgb8(), self._picture_folder)
 
     def _is_editing(self) -> bool:

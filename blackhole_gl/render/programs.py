@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import time as clock
+from collections import OrderedDict
 from pathlib import Path
 from typing import Mapping, Sequence
 
@@ -15,21 +18,35 @@ from ..resources import shaders_dir
 from ..scene import Scene
 from . import uniforms
 
+MOST_KEPT = 64
+"""Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as drivers keep what they compiled on disk."""
+
+_MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
+
+
+class Unready(RuntimeError):
+    """A program is still missing, and compiling it was left to a later frame: see `Programs.deadline`."""
+
 
 class Programs:
     """The programs of one GL context, kept by the structure of what they draw: a slider never compiles anything.
 
     Attributes:
         errors: mistakes found by the last `reload`, until a later one mends them.
+        deadline: ``time.perf_counter()`` after which `get` compiles nothing and raises `Unready` instead. Whoever draws a window sets it before
+            each frame, and so spreads the programs of a new scene over several.
+        compiled: how many programs have been compiled.
     """
 
     def __init__(self, ctx: moderngl.Context, root: Path | None = None):
         self.ctx = ctx
         self.root = root or shaders_dir()
         self.errors: list[ShaderError] = []
-        self._by_structure: dict[tuple, Composed] = {}
-        self._by_text: dict[str, moderngl.VertexArray] = {}
-        self._recipes: dict[tuple, tuple] = {}
+        self.deadline = math.inf
+        self.compiled = 0
+        self._composed: OrderedDict[tuple, Composed] = OrderedDict()
+        self._triangles: OrderedDict[str, moderngl.VertexArray] = OrderedDict()
+        self._asked: tuple[Scene, RayPlan, tuple] | None = None
         self._seen = self._times()
 
     def get(self, path: str, scene: Scene, ray_plan: RayPlan, extra: Mapping[str, int] | None = None) -> moderngl.VertexArray:
@@ -40,14 +57,21 @@ class Programs:
 
         Raises:
             ShaderError: the text cannot be composed or compiled; it names file and line.
+            Unready: it would have to be compiled, and the `deadline` has passed.
         """
-        chosen = _chosen(scene, ray_plan)
-        switches = {**uniforms.switches(scene, ray_plan), **(extra or {})}
-        key = (path, tuple(chosen.items()), tuple(switches.items()))
-        if key not in self._by_structure:
-            self._recipes[key] = (path, chosen, switches)
-            self._by_structure[key] = self._compose(path, chosen, switches)
-        return self._compiled(self._by_structure[key])
+        recipe = (path, *self._structure(scene, ray_plan), tuple((extra or {}).items()))
+        if recipe not in self._composed:
+            self._composed[recipe] = self._compose(*recipe)
+            if len(self._composed) > _MOST_RECIPES:
+                self._composed.popitem(last=False)
+        self._composed.move_to_end(recipe)
+        return self._compiled(self._composed[recipe], by=self.deadline)
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for triangle in self._triangles.values():
+            _release(triangle)
+        self._triangles.clear()
 
     def reload(self) -> list[ShaderError]:
         """Looks at the files' times; composes and compiles anew what changed. Returns the mistakes that stand."""
@@ -55,31 +79,46 @@ class Programs:
         if times == self._seen:
             return self.errors
         self._seen, self.errors = times, []
-        for key, recipe in list(self._recipes.items()):
+        for recipe in self._composed:
             try:
                 composed = self._compose(*recipe)
-                self._compiled(composed)
-                self._by_structure[key] = composed
+                self._compiled(composed, by=math.inf)
+                self._composed[recipe] = composed
             except ShaderError as error:
                 if str(error) not in map(str, self.errors):
                     self.errors.append(error)
         return self.errors
 
-    def _compose(self, path: str, chosen: Mapping[str, Sequence[str]], switches: Mapping[str, int]) -> Composed:
-        return compose(self.root, path, chosen=chosen, switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
+    def _structure(self, scene: Scene, ray_plan: RayPlan) -> tuple:
+        """(slot, paths) and (switch, value) pairs. A frame asks for several programs with the same two objects: worked out once."""
+        if self._asked is None or self._asked[0] is not scene or self._asked[1] is not ray_plan:
+            self._asked = scene, ray_plan, (tuple(_chosen(scene, ray_plan).items()), tuple(uniforms.switches(scene, ray_plan).items()))
+        return self._asked[2]
 
-    def _compiled(self, composed: Composed) -> moderngl.VertexArray:
-        if composed.text not in self._by_text:
-            vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
-            try:
-                program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
-            except moderngl.Error as error:
-                raise composed.explain(str(error)) from None
-            for block in uniforms.blocks():
-                if block.name in program:
-                    program[block.name].binding = block.binding
-            self._by_text[composed.text] = self.ctx.vertex_array(program, [])
-        return self._by_text[composed.text]
+    def _compose(self, path: str, chosen: tuple, switches: tuple, extra: tuple) -> Composed:
+        return compose(self.root, path, chosen=dict(chosen), switches=dict(switches + extra), blocks=lambda words: carry(uniforms.blocks(), words).fragment)
+
+    def _compiled(self, composed: Composed, *, by: float) -> moderngl.VertexArray:
+        if composed.text not in self._triangles:
+            if clock.perf_counter() > by:
+                raise Unready("the programs of this scene are still being compiled")
+            self._triangles[composed.text] = self._compile(composed)
+            if len(self._triangles) > MOST_KEPT:
+                _release(self._triangles.popitem(last=False)[1])
+        self._triangles.move_to_end(composed.text)
+        return self._triangles[composed.text]
+
+    def _compile(self, composed: Composed) -> moderngl.VertexArray:
+        vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
+        try:
+            program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
+        except moderngl.Error as error:
+            raise composed.explain(str(error)) from None
+        for block in uniforms.blocks():
+            if block.name in program:
+                program[block.name].binding = block.binding
+        self.compiled += 1
+        return self.ctx.vertex_array(program, [])
 
     def _times(self) -> tuple:
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
@@ -96,6 +135,12 @@ def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Textur
 def draw(triangle: moderngl.VertexArray) -> None:
     """Draws the triangle that covers the bound target."""
     triangle.render(moderngl.TRIANGLES, vertices=3)
+
+
+def _release(triangle: moderngl.VertexArray) -> None:
+    program = triangle.program
+    triangle.release()
+    program.release()
 
 
 def _chosen(scene: Scene, ray_plan: RayPlan) -> dict[str, tuple[str, ...]]:

@@ -23,6 +23,7 @@ from blackhole_gl.app import window  # noqa: E402
 
 SIZE = (900, 640)
 PRESETS = ["kerr", "low"]
+TIMEOUT_S = 200.0  # of a scenario; most take a second
 
 
 class EngineDriver:
@@ -38,7 +39,9 @@ class EngineDriver:
 
     def register(self, app: window.Window) -> None:
         engine = hello_imgui.get_imgui_test_engine()
-        imgui.test_engine.get_io(engine).config_run_speed = imgui.test_engine.TestRunSpeed.fast
+        io = imgui.test_engine.get_io(engine)
+        io.config_run_speed = imgui.test_engine.TestRunSpeed.fast
+        io.config_watchdog_warning = io.config_watchdog_kill_test = TIMEOUT_S
         self._tests = [self._queue(engine, scenario, app) for scenario in self._left]
 
     def _queue(self, engine, scenario, app: window.Window):

@@ -58,9 +58,9 @@ def test_without_a_target_all_is_drawn():
     assert set(Machine(500.0).run(5, target=0.0)) == {1.0}
 
 
-def test_the_first_picture_is_coarse():
-    assert Machine(100.0).run(1)[0] == COARSEST[True]
-    assert Machine(100.0).run(1, camera_moving=False)[0] == COARSEST[False]
+def test_before_anything_is_known():
+    assert Machine(100.0).run(1)[0] == COARSEST[True], "coarse under a moving camera"
+    assert Machine(100.0).run(1, camera_moving=False)[0] == 1.0, "whole before a resting one"
 
 
 @pytest.mark.parametrize("full_ms", [100.0, 120.0, 140.0])

@@ -1,0 +1,65 @@
+"""Programs compiled beforehand by another process. Drivers keep on disk what they have compiled, so the window gets them in milliseconds.
+
+Nothing depends on it: where there is no such process or no such cache, the window compiles by itself, some programs a frame.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import time as clock
+from concurrent.futures import Future, ProcessPoolExecutor
+from functools import lru_cache
+
+from ..render.context import create_headless
+from ..render.frame import Renderer
+from ..scene import Scene
+
+_UNTIL_WRITTEN_S = 0.05  # Mesa hands its cache's files to a thread of its own and offers no way to wait for it
+
+
+class WarmUp:
+    """The other process: one for the window's life, started when first wanted."""
+
+    def __init__(self) -> None:
+        self._worker: ProcessPoolExecutor | None = None
+
+    def start(self) -> None:
+        """Starts the process, so that the first `submit` need not wait for it."""
+        if self._worker is None:
+            # Spawned, as a fork would share the window's context.
+            self._worker = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
+            self._worker.submit(_renderer)
+
+    def submit(self, scene: Scene, size: tuple[int, int]) -> Future[None]:
+        """Has the programs of `scene` compiled by drawing a picture of `size`. The future fails where that process cannot draw.
+
+        Only the first draw makes a driver finish its work, and llvmpipe does so anew for sizes that are powers of two: `size` should be the window's.
+        """
+        self.start()
+        return self._worker.submit(_draw, scene, size)
+
+    def close(self) -> None:
+        """Ends the process; what it is at is thrown away."""
+        if self._worker is not None:
+            self._worker.shutdown(wait=False, cancel_futures=True)
+            self._worker = None
+
+
+@lru_cache(maxsize=None)
+def _shared() -> Renderer:
+    return Renderer(create_headless())
+
+
+def _renderer() -> None:
+    _shared()
+
+
+def _draw(scene: Scene, size: tuple[int, int]) -> None:
+    """Draws `scene` as a window does that has just switched to it: coarse, then interpolated, then every pixel; a sky that is kept last."""
+    renderer = _shared()
+    for _ in range(2):  # Mesa stores one variant of a program for each time that it is compiled, and some are drawn with in two
+        for progressive in (True, False, False):
+            renderer.render(scene, 0.0, size, measure=True, progressive=progressive)
+        renderer.programs.release()
+        renderer.hit_map.forget()
+    clock.sleep(_UNTIL_WRITTEN_S)

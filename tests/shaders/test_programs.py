@@ -1,0 +1,46 @@
+"""Programs are compiled when they may be, and no more of them are kept than a few scenes need."""
+
+import math
+
+import pytest
+
+from blackhole_gl.render import frame, programs
+from blackhole_gl.scene import Scene
+
+SIZE = (16, 12)
+
+
+@pytest.fixture
+def renderer(ctx):
+    made = frame.Renderer(ctx)
+    yield made
+    made.release()
+    made.programs.release()
+
+
+def test_nothing_is_compiled_after_the_deadline(renderer):
+    renderer.programs.deadline = -math.inf
+    with pytest.raises(programs.Unready):
+        renderer.render(Scene(), 0.0, SIZE)
+    assert renderer.programs.compiled == 0
+    renderer.programs.deadline = math.inf
+    renderer.render(Scene(), 0.0, SIZE)
+    compiled = renderer.programs.compiled
+    assert compiled > 0
+    renderer.programs.deadline = -math.inf
+    renderer.render(Scene().with_values({"camera.distance": 15.0, "disk.opacity": 0.2}), 1.0, SIZE)
+    assert renderer.programs.compiled == compiled, "a slider compiles nothing"
+
+
+def test_the_programs_used_last_are_kept(renderer, monkeypatch):
+    renderer.render(Scene(), 0.0, SIZE)
+    needed = renderer.programs.compiled
+    monkeypatch.setattr(programs, "MOST_KEPT", needed)
+    renderer.render(Scene(), 1.0, SIZE)
+    assert renderer.programs.compiled == needed
+    other = Scene().with_values({"post.tone_map": "agx"})
+    renderer.render(other, 0.0, SIZE)
+    compiled = renderer.programs.compiled
+    assert compiled > needed and len(renderer.programs._triangles) == needed
+    renderer.render(other, 1.0, SIZE)
+    assert renderer.programs.compiled == compiled
