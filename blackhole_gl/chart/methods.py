@@ -20,7 +20,7 @@ QUICK_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 # Long first trials, which an adaptive control shortens where it must.
 _FIRST_TRIAL = {"rays.step_angle": 0.4, "rays.step_length": 0.5}
 
-_BEST = ("rk4", "dopri5")
+_BEST = ("rk4", "dopri5", "nystrom5")
 
 # Enough that no step is ever stretched: what is measured is what was asked for.
 MAX_STEPS = 8192

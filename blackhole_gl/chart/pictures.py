@@ -22,7 +22,7 @@ INSTALL_LINE = "pip install 'blackhole-gl[chart]'"
 
 # Okabe & Ito's colours, told apart by everybody, and four more.
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8B5A2B", "#F0E442", "#000000", "#777777", "#882255", "#44AA99")
-_MARKERS = {"euler": "v", "verlet": "s", "rk4": "o", "bs3": "^", "dopri5": "D", "": "X"}
+_MARKERS = {"euler": "v", "verlet": "s", "rk4": "o", "bs3": "^", "dopri5": "D", "nystrom4": "<", "nystrom5": ">", "": "X"}
 _LINES = {"fixed": (0, (1, 1)), "radius": "-", "mino": "-", "curvature": "--", "doubling": "-.", "embedded": (0, (5, 1, 1, 1, 1, 1)), "": "none"}
 QUALITIES = {"L": 0.4, "M": 0.2, "H": 0.1, "U": 0.05}
 """κ of the quality presets Low, Medium, High and Ultra, whose scenes are traced by kerr, rk4."""

@@ -2,7 +2,12 @@
 
     k_i = f(y + h sum_j a_ij k_j),   y' = y + h sum_i b_i k_i,   and with b* instead of b the embedded result of lower order
 
-Sources: Kutta 1901; Bogacki & Shampine 1989; Dormand & Prince 1980; velocity Verlet is Swope et al. 1982.
+and of Nystrom's schemes for y'' = f(y):
+
+    k_i = f(y + c_i h y' + h^2 sum_j a_ij k_j),   y -> y + h y' + h^2 sum_i b_i k_i,   y' -> y' + h sum_i b'_i k_i
+
+Sources: Kutta 1901; Nystrom 1925 (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.14); Bogacki & Shampine 1989;
+Dormand & Prince 1980; velocity Verlet is Swope et al. 1982.
 """
 
 from __future__ import annotations
@@ -48,13 +53,36 @@ TABLEAUX = {
     ),
 }
 
-SCHEMES = ("euler", "verlet", "bs3", "rk4", "dopri5")
+
+@dataclass(frozen=True)
+class NystromTableau:
+    """An explicit Runge-Kutta-Nystrom scheme: nodes c, rows of a below the diagonal, weights of places b and of rates b'."""
+
+    c: tuple[F, ...]
+    a: tuple[tuple[F, ...], ...]
+    b: tuple[F, ...]
+    b_rate: tuple[F, ...]
+
+
+NYSTROM_TABLEAUX = {
+    "nystrom4": NystromTableau((F(0), F(1, 2), F(1)), ((), (F(1, 8),), (F(0), F(1, 2))), (F(1, 6), F(1, 3), F(0)), (F(1, 6), F(4, 6), F(1, 6))),
+    "nystrom5": NystromTableau(
+        (F(0), F(1, 5), F(2, 3), F(1)),
+        ((), (F(1, 50),), (F(-1, 27), F(7, 27)), (F(3, 10), F(-2, 35), F(9, 35))),
+        (F(14, 336), F(100, 336), F(54, 336), F(0)),
+        (F(14, 336), F(125, 336), F(162, 336), F(35, 336)),
+    ),
+}
+
+SCHEMES = ("euler", "verlet", "bs3", "rk4", "dopri5", "nystrom4", "nystrom5")
 
 
 def step(scheme: str, rhs: RightHandSide, state: Array, h: float) -> Array:
-    """The state after a step of `h`. For ``verlet`` the first half of the rows are places, the second half their rates."""
+    """The state after a step of `h`. For ``verlet`` and Nystrom's schemes the first half of the rows are places, the second half their rates."""
     if scheme == "verlet":
         return _verlet(rhs, state, h)
+    if scheme in NYSTROM_TABLEAUX:
+        return _nystrom(NYSTROM_TABLEAUX[scheme], rhs, state, h)
     tableau = TABLEAUX[scheme]
     return _combined(state, h, tableau.b, _stages(tableau, rhs, state, h))
 
@@ -75,6 +103,16 @@ def _stages(tableau: Tableau, rhs: RightHandSide, state: Array, h: float) -> lis
 
 def _combined(state: Array, h: float, weights: tuple[F, ...], stages: list[Array]) -> Array:
     return state + h * sum((float(weight) * stage for weight, stage in zip(weights, stages)), np.zeros_like(state))
+
+
+def _nystrom(tableau: NystromTableau, rhs: RightHandSide, state: Array, h: float) -> Array:
+    half = len(state) // 2
+    place, rate = state[:half], state[half:]
+    forces: list[Array] = []
+    for c, row in zip(tableau.c, tableau.a):
+        at = _combined(place + float(c) * h * rate, h * h, row, forces)
+        forces.append(rhs(np.concatenate([at, rate]))[half:])
+    return np.concatenate([_combined(place + h * rate, h * h, tableau.b, forces), _combined(rate, h, tableau.b_rate, forces)])
 
 
 def _verlet(rhs: RightHandSide, state: Array, h: float) -> Array:

@@ -67,6 +67,10 @@ State state_kick(State s, float h, State k) {
     return State(s.x, s.v + h * k.v, s.twist + h * k.twist);
 }
 
+State state_push(State s, float h2, State k) {
+    return State(s.x + h2 * k.v, s.v, s.twist);
+}
+
 State state_drift(State s, float h) {
     return State(s.x + h * s.v, s.v, s.twist);
 }

@@ -14,11 +14,12 @@
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
 // and, for those integrators and step controls that ask for them,
 //     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
+//     State state_push(State s, float h2, State k)      places moved by h2 times the rates of their rates
 //     float state_difference(Orbit, State a, State b)   about the angle in radians by which two ends of one step differ
 //     float ray_plain_step(Orbit, State), ray_longest_step(Orbit, State)   the step before any control; the longest in which nothing is missed
 //     float ray_radius(State), ray_elevation(State)     in r_s; sine of the angle above z = 0
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
-// RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift.
+// RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift and no state_push.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
 // RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its
 // size; −1 for none. For the view of conserved quantities only.
@@ -38,9 +39,14 @@ State march_step(Orbit orbit, State s, float h) {
     return completed(orbit, s, h, integrator_step(orbit, s, h));
 }
 
+#if ORDERS > 0
+// The side of the plane that a ray is on; in the plane, the one it heads for, so that the camera's own place there does not count.
+bool is_below(State s) {
+    return ray_height(s) < 0.0 || (ray_height(s) == 0.0 && ray_height_rate(s) < 0.0);
+}
+
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
 // so that the crossing is as accurate as the march and not as the polynomial.
-#if ORDERS > 0
 void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits hits) {
     float t = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
     if (t >= end) return;
@@ -54,6 +60,15 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
     vec2 point = ray_plane_point(there);
     if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point);
 }
+#endif
+
+// llvmpipe (Mesa 22.3) hands on what the body of a loop with one exit computed for a finished ray in later rounds. Where the body is a function of
+// the state alone that is the same, and saves copies of two states a round (docs/performance.md). A trial step or a change of chart is
+// altered by the round itself: those loops get a second exit, which keeps every ray's own values.
+#if defined(STEP_ADAPTS) || defined(RAY_RECHARTS)
+#define MARCH_REPEATS 0
+#else
+#define MARCH_REPEATS 1
 #endif
 
 // The inner loop only steps: software renderers run every branch of a loop body in every round, so what happens once a ray or
@@ -70,12 +85,13 @@ Hits trace_ray(RayStart start) {
 #ifdef STEP_ADAPTS
     float trial = ray_plain_step(orbit, s);
 #endif
-#if ORDERS > 0
-    float side = sign(ray_height(s));  // 0: the camera's own place in the plane does not count
-#endif
     for (int leg = 0; leg <= ORDERS; ++leg) {
         bool crossed = false;
+#if MARCH_REPEATS
+        do {
+#else
         while (steps < plan_max_steps) {
+#endif
 #ifdef RAY_RECHARTS
             next = ray_recharted(s, next);
 #endif
@@ -90,13 +106,15 @@ Hits trace_ray(RayStart start) {
             ++steps;
             fate = ray_fate(orbit, next);
 #if ORDERS > 0
-            float next_side = sign(ray_height(next));
-            crossed = side * next_side < 0.0 && leg < ORDERS;
-            side = next_side == 0.0 ? side : next_side;
+            crossed = is_below(next) != is_below(s) && leg < ORDERS;
 #endif
+#if MARCH_REPEATS
+        } while (!crossed && fate == UNRESOLVED && steps < plan_max_steps);
+#else
             if (crossed || fate != UNRESOLVED) break;
         }
-        end = fate == ESCAPED ? ray_end(orbit, s, next, h) : 1.0;
+#endif
+        end = fate == ESCAPED ? ray_end(orbit, s, next, h) : 2.0;  // or beyond the step, whose very end may be a crossing
 #if ORDERS > 0
         if (crossed) find_crossing(orbit, s, next, h, end, hits);
 #endif

@@ -48,11 +48,15 @@ State state_step(State s, float h, State k) {
 }
 
 State state_kick(State s, float h, State k) {
-    return State(s.w, s.w_rate + h * k.w_rate, s.angle + h * k.angle, s.b, s.n, s.aside);
+    return State(s.w, s.w_rate + h * k.w_rate, s.angle, s.b, s.n, s.aside);
+}
+
+State state_push(State s, float h2, State k) {
+    return State(s.w + h2 * k.w_rate, s.w_rate, s.angle, s.b, s.n, s.aside);
 }
 
 State state_drift(State s, float h) {
-    return State(s.w + h * s.w_rate, s.w_rate, s.angle, s.b, s.n, s.aside);
+    return State(s.w + h * s.w_rate, s.w_rate, s.angle + h * s.b, s.b, s.n, s.aside);
 }
 
 float state_difference(Orbit orbit, State a, State b) {

@@ -95,12 +95,15 @@ def _shader_errors(renderer: Renderer, model: str, integrator: str, control: str
         ("kerr", "euler", (0.1, 0.05, 0.025)),
         ("kerr", "verlet", (0.2, 0.1, 0.05, 0.025)),
         ("kerr", "rk4", (0.4, 0.2, 0.1)),
+        ("kerr", "nystrom4", (0.4, 0.2, 0.1)),
         ("schwarzschild_binet", "rk4", (0.4, 0.2, 0.1)),
+        ("schwarzschild_binet", "nystrom5", (0.8, 0.56, 0.4)),
         ("kerr_schild", "rk4", (0.4, 0.2, 0.1)),
         ("kerr_schild", "bs3", (0.2, 0.1, 0.05)),
         ("schwarzschild", "verlet", (0.8, 0.4, 0.2, 0.1)),
         ("schwarzschild", "bs3", (0.8, 0.4, 0.2, 0.1)),
         ("schwarzschild", "rk4", (1.6, 0.8, 0.4)),
+        ("schwarzschild", "nystrom4", (1.6, 0.8, 0.4)),
     ],
 )
 def test_order_in_the_shader(renderer: Renderer, model: str, integrator: str, settings: tuple[float, ...]) -> None:
