@@ -63,7 +63,8 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     do {
         float frequency = float(octave * octave);
         vec4 headings = (octave & 1) == 1 ? vec4(heading_a.xy, heading_b.xy) : vec4(heading_a.zw, heading_b.zw);
-        strengths = contrast * weights * (1.0 - smoothstep(0.3, 0.8, frequency * grain)); // detail finer than two pixels would only flicker
+        vec2 kept = clamp(1.6 - 2.0 * frequency * grain, 0.0, 1.0); // detail finer than two pixels would only flicker: 1 below 0.3, 0 from 0.8 on
+        strengths = contrast * weights * kept * kept * (3.0 - 2.0 * kept);
         uvec2 seeds = uvec2(shear_seed.xy) * 16u + uint(octave);
         exponent += strengths.x * simplex_noise(vec3(headings.xy * around, height) * frequency, seeds.x)
                   + strengths.y * simplex_noise(vec3(headings.zw * around, height) * frequency, seeds.y);

@@ -95,7 +95,7 @@ struct SkyPlace {
 // Angular distance between the nearer two opposite sides of a cell at `place`, times the number of cells across a face.
 float cube_cell_width(vec2 place) {
     vec2 p = abs(place);
-    vec2 squares = p * (p + 2.0) / 3.0;
+    vec2 squares = p * (p + 2.0) * 0.33333333;
     squares *= squares;
     vec2 width = (1.0 + p) * inversesqrt(1.0 + squares);
     return 4.0 / 3.0 * min(width.x, width.y) * inversesqrt(1.0 + squares.x + squares.y);
@@ -124,9 +124,10 @@ struct StarLight {
 void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float spread, float cells, int row, float low, float high) {
     float tail = pow(low / high, 4.0 / 3.0);
     float mean_flux = 4.0 * (low - high * tail) / (1.0 - tail);
-    float haze = smoothstep(0.8, 1.0, spread * cells);
+    float haze = clamp(spread * (5.0 * cells) - 4.0, 0.0, 1.0); // smoothstep(0.8, 1, …), which would divide by a constant
+    haze *= haze * (3.0 - 2.0 * haze);
 
-    vec2 cell = min(floor((at.place * 0.5 + 0.5) * cells), cells - 1.0);
+    vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5);
     vec4 star = texelFetch(star_cells, ivec2(cell) + ivec2(at.face * int(cells), row), 0);
     vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
     float fall = max(1.0 - dot(d, d), 0.0); // ∫ fall³ over the disc of radius 2 is π
