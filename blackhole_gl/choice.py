@@ -20,6 +20,9 @@ AUTO = "auto"
 PICTURE_HEIGHT = 1080
 """Pixels in the height of the picture whose pixels a tolerance is given in."""
 
+REFINED_SIZE, REFINED_TOLERANCE = (1280, 720), 0.5
+"""Picture in pixels, and ``rays.tolerance``, that refined rows of the table are measured with: how much is interpolated depends on both."""
+
 # A method may end no more than 1 % of the rays wrongly: the tolerance speaks of 99 % of the pixels.
 _WRONG_FATES = 0.01
 
@@ -62,7 +65,9 @@ class Measured:
         direction_99: error of the escape direction in radians at 99 % of the rays.
         crossing_r_99: relative error of the crossing radii at 99 %.
         wrong_fates: share of rays.
-        cost: trace time as a ratio to the flat frame.
+        cost: trace time as a ratio to the flat frame of the same size.
+        refined: whether the hit map was refined, as it is while the camera moves; size and tolerance are then `REFINED_SIZE` and `REFINED_TOLERANCE`.
+        cost_unrefined: of a refined row: what a ray for every pixel costs at that size; 0 otherwise.
     """
 
     scene: str
@@ -81,10 +86,12 @@ class Measured:
     wrong_fates: float
     evaluations: float
     cost: float
+    refined: bool
+    cost_unrefined: float
 
     @property
     def method(self) -> Method:
-        """What tells methods apart."""
+        """What tells methods apart, refinement left aside."""
         return Method(self.model, self.integrator, self.step_control, self.step_length, self.step_angle, self.step_tolerance)
 
 
@@ -100,6 +107,25 @@ class Prediction:
     method: Method
     error_px: float
     cost: float
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """What the chart lets expect of a scene's method with refined hit maps, in a picture of `REFINED_SIZE`.
+
+    Attributes:
+        error_px: at 99 % of the pixels, in pixels of that picture.
+        cost: trace time as a ratio to the flat frame of that size.
+        cost_unrefined: the same with a ray for every pixel.
+    """
+
+    error_px: float
+    cost: float
+    cost_unrefined: float
+
+    def __str__(self) -> str:
+        width, height = REFINED_SIZE
+        return f"{self.error_px:.2g} px at {self.cost:.2g} flat frames of {width}×{height} against {self.cost_unrefined:.2g} for every pixel"
 
 
 @dataclass(frozen=True)
@@ -164,7 +190,7 @@ def predictions(scene: Scene) -> Iterator[Prediction]:
     near = _nearest_scenes(scene)
     by_method: dict[Method, list[Measured]] = {}
     for row in measurements():
-        if row.scene in near and _fits(scene, row):
+        if row.scene in near and not row.refined and _fits(scene, row):
             by_method.setdefault(row.method, []).append(row)
     for method, rows in by_method.items():
         if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows):
@@ -172,13 +198,56 @@ def predictions(scene: Scene) -> Iterator[Prediction]:
             yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), nearest.cost)
 
 
-def error_px(scene: Scene, direction: float, crossing_r: float) -> float:
-    """Errors in pixels of a picture of `scene`: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
-    pixel = math.radians(scene.camera.fov_deg) / PICTURE_HEIGHT
-    if not scene.disk.enabled or math.isinf(scene.camera.distance):
+def refinement(scene: Scene) -> Refinement | None:
+    """What to expect of refined hit maps in `scene`, which leaves nothing open; None where its method was not measured with them."""
+    if _not_measured(scene):
+        return None
+    near, method = _nearest_scenes(scene), _stated_method(scene)
+    rows: dict[tuple[str, bool], Measured] = {}
+    for row in measurements():
+        if row.scene in near and row.model == method.model and row.method == method:
+            rows[row.scene, row.refined] = row
+    if len(rows) < 2 * len(near):
+        return None
+    nearest = rows[near[0], True]
+    error = max(_refined_error_px(scene, rows[name, False], rows[name, True]) for name in near)
+    if any(rows[name, True].wrong_fates > _WRONG_FATES for name in near):
+        error = math.inf
+    # Interpolation's error goes as the second derivative, which falls as the square of the distance to the critical curve: pixels with rays
+    # of their own grow as 1/√tolerance. Taken for the whole cost, that is too much rather than too little.
+    dearer = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
+    return Refinement(error, nearest.cost * dearer, nearest.cost_unrefined)
+
+
+def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> float:
+    """What `scene` may expect from a measured scene's two rows: there as here the pixels of interpolation's error follow the tolerance."""
+    march, both = (_pixels(scene, row.fov_deg, row.distance, REFINED_SIZE[1], row.direction_99, row.crossing_r_99) for row in (marched, refined))
+    return march + max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
+
+
+def _stated_method(scene: Scene) -> Method:
+    """The method of `scene`, which leaves nothing open, as the table names it."""
+    rays, model = scene.rays, observer.ray_model(scene)
+    if model.traits["kind"] == "closed":
+        return Method(model.key, "", "", 0.0, 0.0, 0.0)
+    if catalogue.plug_ins("step_control")[rays.step_control].traits.get("adapts"):
+        return Method(model.key, rays.integrator, rays.step_control, 0.0, 0.0, scene.get(f"rays.{rays.step_control}.tolerance"))
+    angular = model.traits["marches_in"] == "mino"
+    return Method(model.key, rays.integrator, rays.step_control, 0.0 if angular else rays.step_length, rays.step_angle if angular else 0.0, 0.0)
+
+
+def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PICTURE_HEIGHT) -> float:
+    """Errors in pixels of a picture of `scene` `height` pixels high: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
+    return _pixels(scene, scene.camera.fov_deg, scene.camera.distance, height, direction, crossing_r)
+
+
+def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, direction: float, crossing_r: float) -> float:
+    """As `error_px`, for the disk of `scene` seen by another camera."""
+    pixel = math.radians(fov_deg) / height
+    if not scene.disk.enabled or math.isinf(distance):
         return direction / pixel
     outer = scene.disk.outer_radius
-    return max(direction, crossing_r * outer / max(scene.camera.distance, outer)) / pixel
+    return max(direction, crossing_r * outer / max(distance, outer)) / pixel
 
 
 @lru_cache(maxsize=1)
@@ -199,7 +268,9 @@ def _measured(record: dict[str, str]) -> Measured | None:
     numbers = {name: float(record[name]) for name in ("spin", "distance", "inclination_deg", "fov_deg")}
     errors = {name: float(record[name] or 0.0) for name in ("step_length", "step_angle", "step_tolerance", "direction_99", "crossing_r_99", "wrong_fates", "evaluations")}
     names = {name: record[name] for name in ("scene", "model", "integrator", "step_control")}
-    return Measured(**names, **numbers, **errors, cost=float(record["cost_flat_ratio"]))
+    # tables from before there was refinement lack its columns
+    refined, cost_unrefined = record.get("refined") == "1", float(record.get("cost_unrefined") or 0.0)
+    return Measured(**names, **numbers, **errors, cost=float(record["cost_flat_ratio"]), refined=refined, cost_unrefined=cost_unrefined)
 
 
 def _not_measured(scene: Scene) -> str:

@@ -144,16 +144,22 @@ def plan(
 
     scene = _scene(preset, set_)
     chosen, made = planning.choice.choose(scene), planning.plan(scene)
+    moving = planning.choice.refinement(chosen.scene) if made.integrator is not None else None
     print(f"method     {made.method}")
     print(f"steps      at most {made.max_steps}, {made.evaluations_per_step} evaluations each")
     print(f"crossings  {made.orders} orders")
     if chosen.chosen is not None:
         print(f"predicted  {chosen.chosen.error_px:.2g} px at 99 % of the pixels, {chosen.chosen.cost:.3g} flat frames")
+    if moving is not None:
+        print(f"  refined  {moving}")
     if measure:
-        from .chart.prediction import measured
+        from .chart.prediction import measured, measured_refined
 
-        found = measured(_renderer(backend), scene)
+        renderer = _renderer(backend)
+        found = measured(renderer, scene)
         print(f"measured   {found.error_px:.2g} px at 99 % of the pixels, {found.cost:.3g} flat frames")
+        if made.integrator is not None:
+            print(f"  refined  {measured_refined(renderer, scene)}")
     for reason in made.reasons:
         print(f"  - {reason}")
     _refuse_unmet(scene)

@@ -92,7 +92,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     elif orders < scene.rays.orders and not keep_crossings:
         reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
     if model.traits["kind"] == "closed":
-        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, _refine_px(scene, model), tuple(reasons))
+        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, 0.0, tuple(reasons))
     control = scene.rays.step_control
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
@@ -105,6 +105,8 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     if stretch > 1.0:
         reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
     stretch = max(1.0, stretch)
+    refine, why = _refines(scene, made)
+    reasons.append(why)
     return RayPlan(
         model,
         catalogue.plug_ins("integrator")[scene.rays.integrator],
@@ -113,7 +115,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         scene.rays.step_angle * stretch,
         scene.rays.max_steps,
         orders,
-        _refine_px(scene, model),
+        refine_px(scene) if refine else 0.0,
         tuple(reasons),
     )
 
@@ -142,11 +144,27 @@ def unfit_options(key: str, scene: Scene) -> dict[str, str]:
     return found
 
 
-def _refine_px(scene: Scene, model: PlugIn) -> float:
-    """Error that interpolation may add while the camera moves; 0 where it is off, or where rays cost no more than interpolating: in closed models."""
-    if not scene.rays.refine or model.traits["kind"] == "closed":
-        return 0.0
+def refine_px(scene: Scene) -> float:
+    """Error in pixels that interpolation between exact rays may add in `scene` where its hit map is refined."""
     return _REFINE_SHARE * scene.rays.tolerance
+
+
+def _refines(scene: Scene, made: choice.Choice) -> tuple[bool, str]:
+    """Whether the marched rays of `scene`, which leaves nothing open, are refined while the camera moves, and why.
+
+    The method stays that of the picture at rest, though a coarser one might do for the camera's way: another method would be another
+    program to wait for and a jump when the camera stops. Closed models are not asked for: their rays cost no more than interpolating.
+    """
+    if not scene.rays.refine:
+        return False, "moving: a ray for every pixel, as rays.refine is off"
+    found = choice.refinement(scene)
+    if found is None:
+        return True, f"moving: refined within {refine_px(scene):.2g} px; what that costs here was not measured"
+    # Steps stated by hand, or a tolerance below the floor, miss it at rest too: then the bound on what interpolation adds is all there is to keep.
+    kept = made.chosen is None or not made.meets or found.error_px <= scene.rays.tolerance
+    if kept and found.cost < found.cost_unrefined:
+        return True, f"moving: refined, {found}"
+    return False, f"moving: a ray for every pixel; refined would be {found}"
 
 
 def _visible_orders(scene: Scene) -> int:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import statistics
 from dataclasses import dataclass, replace
-from typing import Mapping
+from typing import Container, Mapping
 
 from . import plan
 from .plan import RayPlan
@@ -50,16 +50,24 @@ def tasks(scenes: Mapping[str, Scene]) -> dict[str, tuple[Scene, RayPlan]]:
     return {name: (scene, plan.plan(scene)) for name, scene in scenes.items()}
 
 
-def interleaved(renderer: Renderer, work: Mapping[str, tuple[Scene, RayPlan]], size: tuple[int, int], yardstick: str, rounds: int = 7) -> dict[str, Timing]:
+def interleaved(
+    renderer: Renderer,
+    work: Mapping[str, tuple[Scene, RayPlan]],
+    size: tuple[int, int],
+    yardstick: str,
+    rounds: int = 7,
+    refined: Container[str] = (),
+) -> dict[str, Timing]:
     """Trace times of `work` at `size`, taken in turn `rounds` times after one uncounted round.
 
     Args:
         yardstick: the key in `work` that ratios are taken to.
+        refined: the keys in `work` whose plans say how far hits may be interpolated, and which are traced so.
     """
     times: dict[str, list[float]] = {name: [] for name in work}
     for counted in range(-1, rounds):
         for name, (scene, ray_plan) in work.items():
-            seconds = renderer.time_trace(scene, size, ray_plan)
+            seconds = renderer.time_trace(scene, size, ray_plan, progressive=name in refined)
             if counted >= 0:
                 times[name].append(seconds)
     found = {}

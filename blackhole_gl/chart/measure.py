@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields as record_fields
+from dataclasses import dataclass, fields as record_fields, replace
 
 import numpy as np
 
 from .. import listed_rays, plan, timing
 from ..render.frame import Renderer
 from ..scene import Scene
+from . import refined
 from .errors import Errors, compare
 from .methods import Method
 from .scenes import NEAR_CRITICAL, ChartScene
@@ -42,6 +43,9 @@ class Row:
         unresolved: rays without a fate, of all.
         evaluations: of the right-hand side, mean over the rays.
         cost_flat_ratio: shortest frame time over the shortest of the flat frame, taken in turn.
+        refined: 1 for a refined hit map, as a moving camera's (`refined.trace`): rays are the pixels of a picture of `choice.REFINED_SIZE`, and
+            that is what is timed.
+        cost_unrefined: of a refined row: the ratio at that size with a ray for every pixel.
         cost_low, cost_high: extremes of that ratio in the single rounds.
         milliseconds: of the frame, on the machine named in the table's head.
     """
@@ -65,6 +69,8 @@ class Row:
     evaluations: float
     cost_flat_ratio: float
     step_tolerance: float
+    refined: int
+    cost_unrefined: float
     variant: str
     lost_crossings: float
     near_direction_median: float
@@ -88,7 +94,7 @@ class Row:
     @property
     def method(self) -> str:
         """The method's name, without the setting."""
-        return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant) if part)
+        return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant, "refined" if self.refined else "") if part)
 
 
 COLUMNS = tuple(item.name for item in record_fields(Row))
@@ -103,14 +109,34 @@ def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, setting
         twin: the rays traced by the method's own float64 twin, where that is not the truth itself; None where there is none.
     """
     scenes = [method.applied(chart_scene.scene, setting) for setting in settings]
+    if method.refined:
+        return [_refined_row(renderer, chart_scene, method, setting, scene, timings.rounds) for setting, scene in zip(settings, scenes)]
     costs = _costs(renderer, chart_scene.scene, scenes, timings)
-    return [_row(renderer, chart_scene, method, *entry, twin) for entry in zip(settings, scenes, costs)]
+    rows = []
+    for setting, scene, cost in zip(settings, scenes, costs):
+        found = listed_rays.trace_by_shader(renderer, scene, chart_scene.rays)
+        rows.append(_row(chart_scene, method, setting, found, chart_scene.truth, twin, cost))
+    return rows
 
 
-def _row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float, scene: Scene, cost: timing.Timing, twin: listed_rays.TracedRays | None) -> Row:
-    found = listed_rays.trace_by_shader(renderer, scene, chart_scene.rays)
-    near = chart_scene.epsilon < NEAR_CRITICAL
-    errors, close = compare(found, chart_scene.truth, ~near), compare(found, chart_scene.truth, near)
+def _refined_row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float, scene: Scene, rounds: int) -> Row:
+    found = refined.trace(renderer, scene, chart_scene.pixels)
+    cost, cost_unrefined = refined.costs(renderer, scene, rounds)
+    return replace(_row(chart_scene, method, setting, found, refined.truth(chart_scene), None, cost), cost_unrefined=cost_unrefined)
+
+
+def _row(
+    chart_scene: ChartScene,
+    method: Method,
+    setting: float,
+    found: listed_rays.TracedRays,
+    truth: listed_rays.TracedRays,
+    twin: listed_rays.TracedRays | None,
+    cost: timing.Timing,
+) -> Row:
+    """The row of the rays `found`: all those of `chart_scene`, or the first of them."""
+    scene, near = chart_scene.scene, chart_scene.epsilon[: len(found.fate)] < NEAR_CRITICAL
+    errors, close = compare(found, truth, ~near), compare(found, truth, near)
     own = errors if twin is None else compare(found, twin, ~near)
     camera = scene.camera
     step = {knob: setting if method.knob == knob else math.nan for knob in ("length", "angle", "tolerance")}
@@ -134,6 +160,8 @@ def _row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: f
         evaluations=float(np.mean(found.evaluations)),
         cost_flat_ratio=cost.ratio,
         step_tolerance=step["tolerance"],
+        refined=int(method.refined),
+        cost_unrefined=math.nan,
         variant=method.variant,
         lost_crossings=errors.lost_crossings,
         near_direction_median=close.direction_median,

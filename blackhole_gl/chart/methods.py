@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Iterable, Iterator
 
 from .. import catalogue
 from ..catalogue import PlugIn
+from ..choice import REFINED_TOLERANCE
 from ..scene import Scene
 
 # From steps that only just hold together to steps that add more rounding than they take away; every quality preset's κ is among them.
@@ -16,6 +17,9 @@ TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # rad a step
 QUICK_ANGLES = (0.8, 0.4, 0.2, 0.1, 0.05)
 QUICK_LENGTHS = (0.8, 0.5, 0.3, 0.15, 0.08)
 QUICK_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+
+# Of these, what refined maps are measured with: up to κ = 0.1. Finer marches add nothing to be seen behind what interpolation adds.
+FINEST_REFINED = 6
 
 # Long first trials, which an adaptive control shortens where it must.
 _FIRST_TRIAL = {"rays.step_angle": 0.4, "rays.step_length": 0.5}
@@ -32,17 +36,19 @@ class Method:
 
     Attributes:
         changes: switches of a closed model that are not as they come, as (key, value) pairs.
+        refined: whether the hit map is refined, as while a camera moves: a coarse grid of exact rays, and the pixels that cannot be interpolated.
     """
 
     model: str
     integrator: str = ""
     step_control: str = ""
     changes: tuple[tuple[str, bool], ...] = ()
+    refined: bool = False
 
     @property
     def name(self) -> str:
         """A short name for tables and curves, e.g. ``kerr, rk4, mino``."""
-        return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant) if part)
+        return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant, "refined" if self.refined else "") if part)
 
     @property
     def variant(self) -> str:
@@ -72,13 +78,15 @@ class Method:
             "length": (LENGTHS, QUICK_LENGTHS),
             "tolerance": (TOLERANCES, QUICK_TOLERANCES),
         }
-        return ladder[self.knob][quick]
+        return ladder[self.knob][quick][: FINEST_REFINED if self.refined else None]
 
     def values(self, setting: float) -> dict[str, Any]:
         """The scene values, by dotted key, that make a scene be traced by this method with `setting`."""
         values: dict[str, Any] = {"rays.model": self.model, "rays.lensing": True, "rays.max_steps": MAX_STEPS, **dict(self.changes)}
         if self.integrator:
             values |= {"rays.integrator": self.integrator, "rays.step_control": self.step_control, **_FIRST_TRIAL, self.knob_key: setting}
+        if self.refined:
+            values["rays.tolerance"] = REFINED_TOLERANCE
         return values
 
     def applied(self, scene: Scene, setting: float) -> Scene:
@@ -98,6 +106,21 @@ def sensible(scene: Scene, whole: bool = True) -> list[Method]:
         if model.traits.get("charted", True):
             found |= dict.fromkeys(_methods_of(model, scene, whole))
     return list(found)
+
+
+def refined(scene: Scene, quick: bool = False) -> list[Method]:
+    """The methods worth measuring with refinement for `scene`.
+
+    Those that the plan may come to: the model made for this kind of hole, marched in Mino time by its separated equations (any other march
+    costs several times as much), with the best integrators. Where there is no spin the plan takes a closed model, and a march only when it
+    is told to: one integrator will do.
+    """
+    spins = scene.hole.spin != 0.0
+    wanted = {"marches_in": "mino", "second_order": True, "spins": spins}
+    models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and wanted.items() <= model.traits.items()]
+    integrators = _BEST if spins and not quick else ("rk4",)
+    marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits["step_control"]])]
+    return [replace(method, refined=True) for method in marched]
 
 
 def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Method]:

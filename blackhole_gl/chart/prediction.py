@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from .. import choice, listed_rays, plan, timing
 from ..render.frame import Renderer
 from ..scene import Scene
+from . import refined
 from .errors import compare
 from .scenes import NEAR_CRITICAL, ChartScene
 
@@ -28,8 +29,7 @@ def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
     Raises:
         ValueError: the scene's gravity is artistic: there is no truth to compare with.
     """
-    if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
-        raise ValueError("the scene's gravity is artistic: there is no truth to measure an error against")
+    _refuse_art(scene)
     stated = plan.resolved(scene)
     place = ChartScene("measured", scene, rays)
     found = listed_rays.trace_by_shader(renderer, stated, place.rays)
@@ -37,3 +37,24 @@ def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
     work = timing.tasks({"plan": stated, "flat": timing.flat_scene(stated)})
     cost = timing.interleaved(renderer, work, _SIZE, "flat", _ROUNDS)["plan"].ratio
     return Outcome(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
+
+
+def measured_refined(renderer: Renderer, scene: Scene, pixels: int = 2000) -> choice.Refinement:
+    """Error and costs of refined hit maps of `scene` by the plan's method, whether or not the plan refines it; as `measured`.
+
+    Raises:
+        ValueError: as `measured`.
+    """
+    _refuse_art(scene)
+    stated = plan.resolved(scene)
+    errors = refined.errors(renderer, ChartScene("measured", scene, pixels), stated)
+    made, flat = refined.refined_plan(stated), timing.flat_scene(stated)
+    work = {"flat": (flat, plan.plan(flat)), "refined": (stated, made), "every pixel": (stated, made)}
+    cost = timing.interleaved(renderer, work, choice.REFINED_SIZE, "flat", _ROUNDS, refined=("refined",))
+    error_px = choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1])
+    return choice.Refinement(error_px, cost["refined"].ratio, cost["every pixel"].ratio)
+
+
+def _refuse_art(scene: Scene) -> None:
+    if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
+        raise ValueError("the scene's gravity is artistic: there is no truth to measure an error against")

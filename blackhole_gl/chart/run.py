@@ -82,7 +82,7 @@ def plan_choices(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> dict[str,
 
 
 def _is_method_of(row: Row, scene: Scene) -> bool:
-    if row.model != scene.rays.model or row.variant:
+    if row.model != scene.rays.model or row.variant or row.refined:
         return False
     method = Method(row.model, row.integrator, row.step_control)
     same = (row.integrator, row.step_control) == (scene.rays.integrator, scene.rays.step_control)

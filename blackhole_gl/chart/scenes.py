@@ -9,10 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from .. import catalogue, listed_rays, observer, presets, relativity
+from ..choice import REFINED_SIZE
 from ..listed_rays import TracedRays
 from ..scene import Scene
 
-ASPECT = 16.0 / 9.0
+ASPECT = REFINED_SIZE[0] / REFINED_SIZE[1]
 FULL_HD = 1080
 """Pixels in the height of the picture whose pixels errors are also given in."""
 
@@ -41,7 +42,7 @@ class ChartScene:
     """A scene with a name and a fixed sample of rays.
 
     Attributes:
-        count: rays through random places of the picture; a tenth as many more lie close to the critical curve.
+        count: rays through the centres of random pixels; a tenth as many more lie close to the critical curve.
         whole: whether every sensible method is measured in it, or the best ones only.
     """
 
@@ -56,10 +57,15 @@ class ChartScene:
         return math.radians(self.scene.camera.fov_deg) / FULL_HD
 
     @cached_property
+    def pixels(self) -> np.ndarray:
+        """(count, 2) integers: x and y, from the bottom left, of the pixels of a picture of `REFINED_SIZE` whose rays come first in `rays`."""
+        return _pixels(np.random.default_rng(SEED), self.count)
+
+    @cached_property
     def rays(self) -> np.ndarray:
         """(N, 2) as `listed_rays.read` gives them."""
         rng = np.random.default_rng(SEED)
-        right, up = (rng.uniform(-1.0, 1.0, self.count) for _ in range(2))
+        right, up = (2.0 * (_pixels(rng, self.count) + 0.5) / REFINED_SIZE - 1.0).T
         at_infinity = math.isinf(self.scene.camera.distance)
         half = 0.5 * self.scene.camera.field_m if at_infinity else math.tan(math.radians(0.5 * self.scene.camera.fov_deg))
         radius, chi = half * np.hypot(ASPECT * right, up), np.arctan2(up, ASPECT * right)
@@ -82,6 +88,10 @@ class ChartScene:
     def truth(self) -> TracedRays:
         """What the rays really do."""
         return listed_rays.trace_by_reference(true_scene(self.scene), self.rays)
+
+
+def _pixels(rng: np.random.Generator, count: int) -> np.ndarray:
+    return np.stack([rng.uniform(0.0, side, count).astype(int) for side in REFINED_SIZE], axis=-1)
 
 
 def true_scene(scene: Scene) -> Scene:

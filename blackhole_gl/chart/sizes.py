@@ -8,6 +8,7 @@ from .. import timing
 from ..render.frame import Renderer
 from ..scene import Scene
 from .methods import Method
+from .refined import refined_plan
 
 SIZES = ((160, 90), (320, 180), (480, 270), (640, 360), (960, 540), (1280, 720))
 
@@ -15,6 +16,7 @@ _METHODS = {
     "kerr, κ = 0.4": (Method("kerr", "rk4", "mino"), 0.4),
     "kerr, κ = 0.2": (Method("kerr", "rk4", "mino"), 0.2),
     "kerr, κ = 0.05": (Method("kerr", "rk4", "mino"), 0.05),
+    "kerr, κ = 0.2, refined": (Method("kerr", "rk4", "mino", refined=True), 0.2),
     "schwarzschild, rk4, Δt₀ = 0.15": (Method("schwarzschild", "rk4", "radius"), 0.15),
 }
 
@@ -39,6 +41,7 @@ def costs(renderer: Renderer, scene: Scene, quick: bool) -> list[Cost]:
     found = []
     for size in SIZES[:3] if quick else SIZES:
         work = timing.tasks({"flat": timing.flat_scene(scene), **tasks}) | {"300 Euler steps": timing.euler_task(scene)}
-        for name, taken in timing.interleaved(renderer, work, size, "flat", rounds=3).items():
+        moving = {name: (tasks[name], refined_plan(tasks[name])) for name, (method, _) in _METHODS.items() if method.refined}
+        for name, taken in timing.interleaved(renderer, work | moving, size, "flat", rounds=3, refined=moving).items():
             found.append(Cost(name, *size, taken.milliseconds, taken.ratio))
     return found

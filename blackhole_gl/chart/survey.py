@@ -10,7 +10,7 @@ from .. import catalogue, listed_rays
 from ..listed_rays import TracedRays
 from ..render.frame import Renderer
 from .measure import FULL, QUICK, Row, measure
-from .methods import Method, exact_for, sensible
+from .methods import Method, exact_for, refined, sensible
 from .scenes import ChartScene, chart_scenes
 from .work import Kept, key_of
 
@@ -22,7 +22,7 @@ def survey(renderer: Renderer, kept: Kept, quick: bool = False, progress: Callab
         progress: called with the share done (0…1) and what is being measured.
     """
     timings = QUICK if quick else FULL
-    work = [(chart_scene, method) for chart_scene in chart_scenes(quick) for method in sensible(chart_scene.scene, chart_scene.whole)]
+    work = [(chart_scene, method) for chart_scene in chart_scenes(quick) for method in (*sensible(chart_scene.scene, chart_scene.whole), *refined(chart_scene.scene, quick))]
     twins: dict[tuple[str, str, tuple], TracedRays | None] = {}
     rows: list[Row] = []
     for done, (chart_scene, method) in enumerate(work):

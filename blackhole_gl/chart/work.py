@@ -62,4 +62,6 @@ def _shader_text(method: Method) -> str:
     for slot, key in (("ray_model", method.model), ("integrator", method.integrator), ("step_control", method.step_control)):
         if key:
             files.append(shaders_dir() / catalogue.plug_ins(slot)[key].path)
+    if method.refined:
+        files += sorted(shaders_dir().glob("refine_*.frag"))
     return "\n".join(path.read_text(encoding="utf-8") for path in files)

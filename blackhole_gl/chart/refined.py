@@ -1,0 +1,87 @@
+"""Refined hit maps, as a moving camera's: their pixels against the truth, and what they cost.
+
+Size matters here: the fewer the pixels, the more of them cannot be interpolated. All of this is of one size, `choice.REFINED_SIZE`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+
+from .. import observer, plan, relativity, timing
+from ..choice import REFINED_SIZE
+from ..listed_rays import TracedRays
+from ..plan import REFINE_STEP, RayPlan
+from ..render.frame import Renderer
+from ..scene import Scene
+from .errors import Errors, compare
+from .scenes import NEAR_CRITICAL, ChartScene
+
+
+def refined_plan(scene: Scene, keep_crossings: bool = False) -> RayPlan:
+    """The plan for `scene`, refined whether or not it would be."""
+    return replace(plan.plan(scene, keep_crossings=keep_crossings), refine_px=plan.refine_px(scene))
+
+
+def trace(renderer: Renderer, scene: Scene, pixels: np.ndarray) -> TracedRays:
+    """What a refined map of `scene` holds at `pixels` (N, 2): x, y counted from the bottom left.
+
+    Crossings outside the disk are left out: interpolation does not look at them. Steps and evaluations are those of the whole picture, the
+    grid's own rays too, shared out among its pixels.
+    """
+    ray_plan = refined_plan(scene, keep_crossings=True)
+    renderer.time_trace(scene, REFINED_SIZE, ray_plan, progressive=True)
+    hits = renderer.hits()
+    x, y = pixels.T
+    steps = np.full(len(pixels), _steps_a_pixel(renderer, hits.steps))
+    crossing = hits.crossing[y, x].astype(float)
+    r = _within(np.hypot(crossing[..., 0], crossing[..., 1]), scene)
+    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
+    emitter_r = np.where(r >= isco, r, np.nan)
+    g = relativity.circular_orbit_g(emitter_r, hits.lambda_[y, x][:, None], observer.effective_spin(scene), scene.disk.orbit)
+    fate = hits.fate[y, x]
+    direction = np.where((fate == 1)[:, None], hits.direction[y, x].astype(float), np.nan)
+    phi = np.where(np.isnan(r), np.nan, np.arctan2(crossing[..., 1], crossing[..., 0]))
+    return TracedRays(fate, direction, steps, steps * ray_plan.evaluations_per_step, r, phi, g)
+
+
+def truth(chart_scene: ChartScene) -> TracedRays:
+    """What is true at the pixels of `chart_scene`, with the crossings that `trace` counts."""
+    whole = chart_scene.truth
+    part = TracedRays(*(getattr(whole, item.name)[: chart_scene.count] for item in fields(whole)))
+    return replace(part, crossing_r=_within(part.crossing_r, chart_scene.scene))
+
+
+def errors(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> Errors:
+    """Errors of a refined map of `scene`, which is that of `chart_scene` with some method, at pixels off the critical curve."""
+    return compare(trace(renderer, scene, chart_scene.pixels), truth(chart_scene), chart_scene.epsilon[: chart_scene.count] >= NEAR_CRITICAL)
+
+
+def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing, float]:
+    """The time of a refined trace of `scene`, and the ratio to the flat frame of one with a ray for every pixel.
+
+    As everywhere in the chart the shortest times count. The rays of every pixel are traced once: so long a time is steady enough.
+    """
+    flat, made = timing.flat_scene(scene), refined_plan(scene)
+    flat_plan = plan.plan(flat)
+    taken, yard = [], []
+    for _ in range(rounds):
+        yard.append(min(renderer.time_trace(flat, REFINED_SIZE, flat_plan) for _ in range(2)))
+        taken.append(renderer.time_trace(scene, REFINED_SIZE, made, progressive=True))
+    every_pixel = renderer.time_trace(scene, REFINED_SIZE, made)
+    ratios = [a / b for a, b in zip(taken, yard)]
+    return timing.Timing(1e3 * min(taken), min(taken) / min(yard), (min(ratios), max(ratios))), every_pixel / min(yard)
+
+
+def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
+    """Crossing radii (…) in r_s, NaN where there is none on the disk."""
+    return np.where((r > 0.0) & (r <= plan.effective_disk_radii(scene)[1]), r, np.nan)
+
+
+def _steps_a_pixel(renderer: Renderer, steps: np.ndarray) -> float:
+    """Mean over the pixels of the steps taken for them; `steps` (height, width) are interpolated where a pixel has no ray of its own."""
+    width, height = REFINED_SIZE
+    cells = np.frombuffer(renderer.hit_map.samplers()["cells"].read(alignment=1), np.uint8).reshape(height // REFINE_STEP, width // REFINE_STEP)
+    own = np.kron(cells & 3 == 0, np.ones((REFINE_STEP, REFINE_STEP), bool))
+    return float(np.mean(steps * own) + np.mean(steps) / REFINE_STEP**2)
