@@ -18,8 +18,8 @@ QUICK_ANGLES = (0.8, 0.4, 0.2, 0.1, 0.05)
 QUICK_LENGTHS = (0.8, 0.5, 0.3, 0.15, 0.08)
 QUICK_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 
-# Of these, what refined maps are measured with: up to κ = 0.1. Finer marches add nothing to be seen behind what interpolation adds.
-FINEST_REFINED = 6
+# The finest κ that refined maps are measured with: the errors of finer marches do not show behind that of interpolation.
+FINEST_REFINED = 0.1
 
 # Long first trials, which an adaptive control shortens where it must.
 _FIRST_TRIAL = {"rays.step_angle": 0.4, "rays.step_length": 0.5}
@@ -78,7 +78,7 @@ class Method:
             "length": (LENGTHS, QUICK_LENGTHS),
             "tolerance": (TOLERANCES, QUICK_TOLERANCES),
         }
-        return ladder[self.knob][quick][: FINEST_REFINED if self.refined else None]
+        return tuple(setting for setting in ladder[self.knob][quick] if not self.refined or setting >= FINEST_REFINED)
 
     def values(self, setting: float) -> dict[str, Any]:
         """The scene values, by dotted key, that make a scene be traced by this method with `setting`."""

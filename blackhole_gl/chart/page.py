@@ -10,10 +10,11 @@ from .. import catalogue
 from .critical import Point
 from .finest import AWAY, BOUNDS, CLOSE, Finest
 from .measure import Row
+from .page_refined import refined_section
 from .pareto import front
 from .scenes import SHOWN, ChartScene
 from .sizes import Cost
-from .table import Origin
+from .table import Origin, short
 from .validation import DRIFT_LENGTH, DRIFT_STEPS, Validation
 
 
@@ -38,19 +39,20 @@ class Findings:
 
 def page(found: Findings, where: Origin, command: str) -> str:
     """The page as Markdown."""
-    return "\n".join([_head(found, where, command), _methods(found), _floors(found), _finest(found.finest), _best(found), _critical(), _sizes(found), _validation(found.validation), _outside(found.outside)])
+    parts = [_head(found, where, command), _methods(found), refined_section(found.rows, found.scenes), _floors(found), _finest(found.finest), _best(found), _critical()]
+    return "\n".join([*parts, _sizes(found), _validation(found.validation), _outside(found.outside)])
 
 
 def _head(found: Findings, where: Origin, command: str) -> str:
-    methods = {row.method for row in found.rows}
+    methods, moving = ({row.method for row in found.rows if row.refined == refined} for refined in (0, 1))
     scenes = "\n".join(_scene_line(item) for item in found.scenes)
     return f"""# Accuracy and cost
 
 Made by `{command}`; do not edit. Measured on: {where.text}. The numbers behind it: [data/accuracy.csv](data/accuracy.csv),
 [data/accuracy_critical.csv](data/accuracy_critical.csv), [data/accuracy_sizes.csv](data/accuracy_sizes.csv).
 
-{len(methods)} methods (a ray model, an integrator, a step control), {len(found.rows)} rows, {len(found.scenes)} scenes: the chart's own and, in a full run, every shipped
-preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays through random places of the picture (fixed seed) go through the pictures' own shader in
+{len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)} scenes: the chart's own and, in a full run, every shipped
+preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays through the centres of random pixels (fixed seed) go through the pictures' own shader in
 32-bit numbers, and through the float64 twin of the *true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
 A wrong force law therefore shows as a floor that no finer step lowers. Rays closer than ε = 1e-3 to the critical curve (the shadow's edge) are
 counted apart: there every method's error grows without bound. Cost is the shortest of the interleaved frame times over that of the same scene in flat space;
@@ -75,6 +77,7 @@ def _methods(found: Findings) -> str:
         "![Error against cost, one curve a method](pictures/accuracy_methods.png)",
         "",
         "Down and to the left is better. Finer steps go right; where a curve turns up again, rounding has taken over. L, M, H, U are the quality presets.",
+        "Open marks are refined maps, as while the camera moves; their costs are of larger pictures, see below.",
         "",
         "What 99 % of the rays keep within half a pixel at 1080p, and at what cost at least: the cheapest three methods a scene.",
         "",
@@ -84,19 +87,20 @@ def _methods(found: Findings) -> str:
     for chart_scene in found.scenes:
         for row in _cheapest(found.rows, chart_scene, 3):
             lines.append(
-                f"| {row.scene} | {chart_scene.pixel:.2g} | {row.method} | {_number(row.setting)} | {_number(row.direction_99)} | {_number(row.direction_99 / chart_scene.pixel)} | "
-                f"{_number(row.crossing_r_99)} | {_number(row.g_99)} | {row.evaluations:.0f} | {_number(row.cost_flat_ratio)} |"
+                f"| {row.scene} | {chart_scene.pixel:.2g} | {row.method} | {short(row.setting)} | {short(row.direction_99)} | {short(row.direction_99 / chart_scene.pixel)} | "
+                f"{short(row.crossing_r_99)} | {short(row.g_99)} | {row.evaluations:.0f} | {short(row.cost_flat_ratio)} |"
             )
     if found.chosen:
         lines += ["", "The plan's own choice, from the stored table:", "", "| scene | method | step | 99 % [pixels] | cost / flat |", "| --- | --- | --- | --- | --- |"]
         pixel = {item.name: item.pixel for item in found.scenes}
-        lines += [f"| {n} | {r.method} | {_number(r.setting)} | {_number(r.direction_99 / pixel[n])} | {_number(r.cost_flat_ratio)} |" for n, r in found.chosen.items()]
+        lines += [f"| {n} | {r.method} | {short(r.setting)} | {short(r.direction_99 / pixel[n])} | {short(r.cost_flat_ratio)} |" for n, r in found.chosen.items()]
     return "\n".join(lines) + "\n"
 
 
 def _cheapest(rows: Sequence[Row], chart_scene: ChartScene, count: int) -> list[Row]:
     """The cheapest row that is within half a pixel of each of the cheapest `count` methods."""
-    good = [row for row in rows if row.scene == chart_scene.name and row.direction_99 <= 0.5 * chart_scene.pixel and row.wrong_fates <= 0.001]
+    own = [row for row in rows if row.scene == chart_scene.name and not row.refined]
+    good = [row for row in own if row.direction_99 <= 0.5 * chart_scene.pixel and row.wrong_fates <= 0.001]
     found: dict[str, Row] = {}
     for row in sorted(good, key=lambda row: row.cost_flat_ratio):
         found.setdefault(row.method, row)
@@ -115,10 +119,10 @@ def _floors(found: Findings) -> str:
     for model in catalogue.keys("ray_model"):
         cells = []
         for scene in SHOWN:
-            rows = [row for row in found.rows if (row.model, row.scene) == (model, scene)]
+            rows = [row for row in found.rows if (row.model, row.scene) == (model, scene) and not row.refined]
             own = [row.own_direction_99 for row in rows if not math.isnan(row.own_direction_99)]
             lowest = min((row.direction_99 for row in rows if not math.isnan(row.direction_99)), default=math.nan)
-            cells.append(_number(lowest) + (f" ({_number(min(own))})" if own and min(own) < 0.5 * lowest else ""))
+            cells.append(short(lowest) + (f" ({short(min(own))})" if own and min(own) < 0.5 * lowest else ""))
         if any(cell != "–" for cell in cells):
             lines.append(f"| {model} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + """
@@ -146,10 +150,10 @@ def _finest(found: Sequence[Finest]) -> str:
         "",
         "| scene | method | step | " + " | ".join(names.values()) + " |",
         "| --- | --- | --- |" + " --- |" * len(names),
-        "| bound | | | " + " | ".join(_number(bound) for bound in BOUNDS.values()) + " |",
+        "| bound | | | " + " | ".join(short(bound) for bound in BOUNDS.values()) + " |",
     ]
     for item in found:
-        cells = [_number(getattr(item, name)) if getattr(item, name) <= bound else f"**{_number(getattr(item, name))}**" for name, bound in BOUNDS.items()]
+        cells = [short(getattr(item, name)) if getattr(item, name) <= bound else f"**{short(getattr(item, name))}**" for name, bound in BOUNDS.items()]
         lines.append(f"| {item.scene} | {item.method} | {item.setting:g} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n" + _FINEST_REMARK
 
@@ -170,11 +174,11 @@ def _best(found: Findings) -> str:
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for scene in SHOWN:
-        rows = [row for row in found.rows if row.scene == scene]
+        rows = [row for row in found.rows if row.scene == scene and not row.refined]
         for index in front([row.cost_flat_ratio for row in rows], [row.direction_99 for row in rows]):
             row = rows[index]
             numbers = (row.setting, row.direction_median, row.direction_99, row.direction_worst, row.wrong_fates, row.near_direction_median, row.cost_flat_ratio)
-            lines.append(f"| {scene} | {row.method} | " + " | ".join(_number(value) for value in numbers) + " |")
+            lines.append(f"| {scene} | {row.method} | " + " | ".join(short(value) for value in numbers) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -206,7 +210,8 @@ def _sizes(found: Findings) -> str:
         lines.append(f"| {method} | " + " | ".join(f"{by_size[size].milliseconds:.1f} ({by_size[size].flat_ratio:.1f})" for size in sizes) + " |")
     return "\n".join(lines) + """
 
-Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one.
+Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one. Refinement is worth more the larger the picture: what cannot be interpolated is a
+strip a few cells wide along edges and creases, and its share falls as the number of cells grows.
 """
 
 
@@ -257,12 +262,6 @@ def _outside(records: Sequence[Mapping[str, str]]) -> str:
     lines += ["| " + " | ".join(record.values()) + " |" for record in records]
     lines += ["", _OUTSIDE_REMARK]
     return "\n".join(lines) + "\n"
-
-
-def _number(value: float) -> str:
-    if math.isnan(value):
-        return "–"
-    return f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
 
 
 def _deflection(value: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from .. import catalogue
+from ..choice import REFINED_SIZE
 from ..output.files import write_whole
 from .critical import Point
 from .flight import FlightFrame
@@ -79,7 +80,10 @@ def _method_panel(axes, rows: Sequence[Row], chart_scene: ChartScene) -> None:
     for curve in curves.values():
         first = curve[0]
         style = dict(color=_colour(first.model), marker=_MARKERS.get(first.integrator, "o"), linestyle=_LINES.get(first.step_control, "-"))
+        if first.refined:
+            style |= dict(markerfacecolor="white", linewidth=0.6, markersize=4.5)
         axes.plot([row.cost_flat_ratio for row in curve], [row.direction_99 for row in curve], alpha=0.85, **style)
+    rows = [row for row in rows if not row.refined]  # in a larger picture: no match for those of the front
     best = [rows[index] for index in front([row.cost_flat_ratio for row in rows], [row.direction_99 for row in rows])]
     axes.plot([row.cost_flat_ratio for row in best], [row.direction_99 for row in best], color="black", lw=5, alpha=0.16, zorder=1, drawstyle="steps-post")
     for letter, angle in QUALITIES.items():
@@ -113,6 +117,7 @@ def _legend(pyplot, figure, rows: Sequence[Row]) -> None:
         Line2D([], [], color="black", lw=5, alpha=0.16, label="Pareto front"),
         Line2D([], [], ls="none", marker="$L$", color="black", label="quality presets L M H U"),
         Line2D([], [], ls="none", marker="o", ms=10, mfc="none", mec="black", label="the plan's choice"),
+        Line2D([], [], color="grey", lw=0.6, marker="o", ms=4.5, mfc="white", label="refined, {}×{}".format(*REFINED_SIZE)),
     ]
     figure.legend(handles=handles, loc="lower center", ncols=7, fontsize=7, frameon=False)
     figure.tight_layout(rect=(0.0, 0.09, 1.0, 1.0))

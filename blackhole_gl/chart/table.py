@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import platform
 import subprocess
@@ -88,6 +89,13 @@ def read(path: Path) -> list[dict[str, str]]:
     """
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def short(value: float) -> str:
+    """A number for people: two digits, a dash where there is none."""
+    if math.isnan(value):
+        return "–"
+    return f"{value:.2g}" if value < 99.5 else f"{value:.0f}"
 
 
 def _text(value: object) -> str:

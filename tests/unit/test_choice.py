@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import math
+from dataclasses import replace
+from typing import Callable, Iterator
 
 import pytest
 
@@ -26,7 +28,7 @@ def test_no_measured_method_that_meets_the_tolerance_is_a_quarter_cheaper(name):
     pixel = math.radians(scene.camera.fov_deg) / 1080.0
     costs = []
     for row in table():
-        if row["scene"] != name or not row["direction_99"] or float(row["wrong_fates"] or 0.0) > 0.01:
+        if row["scene"] != name or row.get("refined") == "1" or not row["direction_99"] or float(row["wrong_fates"] or 0.0) > 0.01:
             continue
         disk = 0.0
         if scene.disk.enabled and math.isfinite(scene.camera.distance):
@@ -96,3 +98,87 @@ def test_without_a_table_steps_are_plain(monkeypatch):
     made = choice.choose(Scene())
     choice.choose.cache_clear()
     assert made.chosen is None and "no measurements" in made.reasons[0] and made.scene.rays.step_angle == 0.2
+
+
+KERR = presets.load(["kerr"])
+CAMERA = KERR.camera
+
+PIXEL = math.radians(CAMERA.fov_deg) / 720.0
+"""Of `choice.REFINED_SIZE` in that scene, rad."""
+
+MARCHED = choice.Measured("here", KERR.hole.spin, CAMERA.distance, CAMERA.inclination_deg, CAMERA.fov_deg, "kerr", "rk4", "mino", 0.0, 0.2, 0.0, 0.1 * PIXEL, 0.0, 0.0, 80.0, 5.0, False, 0.0)
+REFINED = replace(MARCHED, direction_99=0.3 * PIXEL, evaluations=13.0, cost=3.0, refined=True, cost_unrefined=10.0)
+
+
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
+    """A call that puts rows in the place of the stored table."""
+
+    def forget() -> None:
+        for kept in (choice.choose, choice._nearest_scenes):
+            kept.cache_clear()
+
+    def put(*rows: choice.Measured) -> None:
+        monkeypatch.setattr(choice, "measurements", lambda: rows)
+        forget()
+
+    yield put
+    monkeypatch.undo()
+    forget()
+
+
+def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(measured):
+    measured(MARCHED, replace(REFINED, cost=0.1, direction_99=0.0))
+    made = choice.choose(KERR)
+    assert made.chosen.cost == MARCHED.cost and made.chosen.error_px == pytest.approx(0.15)  # a pixel of 1080 is two thirds of one of 720
+    assert made.runner_up is None
+
+
+def test_what_refinement_costs_and_errs_is_that_of_the_chosen_method(measured):
+    measured(MARCHED, REFINED, replace(REFINED, integrator="dopri5", cost=0.1))
+    found = choice.refinement(choice.choose(KERR).scene)
+    assert (found.cost, found.cost_unrefined) == (3.0, 10.0) and found.error_px == pytest.approx(0.3)
+    assert str(found) == "0.3 px at 3 flat frames of 1280×720 against 10 for every pixel"
+
+
+def test_a_tighter_tolerance_interpolates_less(measured):
+    """The march's 0.1 px stay; of interpolation's 0.2 a fifth is left, and more pixels have rays of their own."""
+    measured(MARCHED, REFINED)
+    scene = choice.choose(KERR.with_values({"rays.tolerance": 0.1})).scene
+    found = choice.refinement(scene)
+    assert found.error_px == pytest.approx(0.14)
+    assert found.cost == pytest.approx(3.0 * math.sqrt(5.0)) and found.cost_unrefined == 10.0
+    loose = choice.refinement(choice.choose(KERR.with_values({"rays.tolerance": 1.0})).scene)
+    assert loose.cost == 3.0, "what was not measured is not hoped for"
+
+
+def test_between_two_measured_scenes_the_worse_is_believed_in_pixels_of_its_own(measured):
+    there = {"scene": "there", "distance": 60.0, "fov_deg": 0.5 * CAMERA.fov_deg}
+    measured(MARCHED, REFINED, replace(MARCHED, **there), replace(REFINED, **there, cost=4.0))
+    scene = KERR.with_values({"camera.distance": 24.0})
+    assert choice._nearest_scenes(scene) == ("here", "there")
+    found = choice.refinement(choice.choose(scene).scene)
+    assert found.error_px == pytest.approx(0.6) and found.cost == 3.0
+    measured(MARCHED, REFINED, replace(MARCHED, **there))
+    assert choice.refinement(choice.choose(scene).scene) is None, "measured in one of the two only"
+
+
+def test_refined_maps_with_wrong_fates_keep_no_tolerance(measured):
+    measured(MARCHED, replace(REFINED, wrong_fates=0.02))
+    assert choice.refinement(choice.choose(KERR).scene).error_px == math.inf
+
+
+@pytest.mark.parametrize("values", [{"rays.step_angle": 0.1}, {"hole.gravity_strength": 2.0}, {"rays.model": "schwarzschild_table", "hole.spin": 0.0}])
+def test_refinement_that_was_not_measured_is_not_made_up(measured, values):
+    measured(MARCHED, REFINED)
+    assert choice.refinement(choice.choose(KERR.with_values(values)).scene) is None
+
+
+def test_tables_without_refinement_are_read_as_such():
+    old = {name: "" for name in ("step_length", "step_tolerance", "crossing_r_99")}
+    old |= {name: str(getattr(MARCHED, name)) for name in ("scene", "spin", "distance", "inclination_deg", "fov_deg", "model", "integrator", "step_control")}
+    old |= {"step_angle": "0.2", "direction_99": repr(MARCHED.direction_99), "wrong_fates": "0", "evaluations": "80", "cost_flat_ratio": "5"}
+    assert choice._measured(old) == MARCHED
+    assert choice._measured(old | {"refined": "0", "cost_unrefined": ""}) == MARCHED
+    new = choice._measured(old | {"refined": "1", "cost_unrefined": "10"})
+    assert new.refined and new.cost_unrefined == 10.0 and new.method == MARCHED.method

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from blackhole_gl import catalogue, plan, relativity
+from blackhole_gl import catalogue, choice, plan, relativity
 from blackhole_gl.scene import Scene, SceneError
 
 
@@ -102,3 +102,44 @@ def test_options_that_do_not_fit_are_named_with_the_reason():
     assert "error estimate" in controls["embedded"]
     assert set(plan.unfit_options("rays.integrator", kerr.with_values({"rays.model": "flat"}))) == set(catalogue.keys("integrator"))
     assert plan.unfit_options("rays.model", kerr) == {}
+
+
+SPINNING = Scene().with_values({"hole.spin": 0.9})
+"""A scene that the plan marches."""
+
+
+def _moving(reasons: tuple[str, ...]) -> str:
+    (found,) = [reason for reason in reasons if reason.startswith("moving:")]
+    return found
+
+
+def test_refinement_that_pays_is_used_and_says_what_it_costs(monkeypatch):
+    monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(0.45, 2.1, 4.4))
+    made = plan.plan(SPINNING)
+    assert made.refine_px == pytest.approx(0.4)
+    assert _moving(made.reasons) == "moving: refined, 0.45 px at 2.1 flat frames of 1280×720 against 4.4 for every pixel"
+    off = plan.plan(SPINNING.with_values({"rays.refine": False}))
+    assert off.refine_px == 0.0 and "rays.refine is off" in _moving(off.reasons)
+    assert off.method == made.method, "at rest and moving rays are traced by one method"
+
+
+@pytest.mark.parametrize("found", [choice.Refinement(0.45, 4.5, 4.4), choice.Refinement(0.55, 2.1, 4.4)])
+def test_refinement_that_is_dearer_or_too_coarse_is_not_used(monkeypatch, found):
+    monkeypatch.setattr(choice, "refinement", lambda scene: found)
+    made = plan.plan(SPINNING)
+    assert made.refine_px == 0.0
+    assert _moving(made.reasons) == f"moving: a ray for every pixel; refined would be {found}"
+
+
+def test_steps_stated_by_hand_that_miss_the_tolerance_are_refined_all_the_same(monkeypatch):
+    monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(5.0, 2.1, 4.4))
+    assert planned(rays__model="kerr", rays__step_control="mino", rays__step_angle=0.8).refine_px > 0.0
+    assert plan.plan(SPINNING.with_values({"rays.tolerance": 0.001})).refine_px > 0.0, "no method meets it"
+
+
+def test_what_was_not_measured_is_refined_where_it_is_marched(monkeypatch):
+    monkeypatch.setattr(choice, "refinement", lambda scene: None)
+    made = planned()
+    assert made.refine_px == pytest.approx(0.4) and "not measured" in _moving(made.reasons)
+    closed = planned(rays__model="schwarzschild_table", hole__spin=0.0)
+    assert closed.refine_px == 0.0 and not any("moving" in reason for reason in closed.reasons)
