@@ -19,7 +19,7 @@ def refined_section(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> str:
         "## Refined maps: while the camera moves",
         "",
         f"*Refined* means: exact rays go through every {REFINE_STEP}th pixel each way; where these agree in fate and crossings and bend little from one to the next, the pixels between them are interpolated, and",
-        "all others get exact rays of their own ([performance.md](performance.md)). So a refined method is the method itself with an error of interpolation on top, held below a share of the scene's tolerance. Both error and",
+        "all others get exact rays of their own ([performance.md](performance.md#refinement-under-a-moving-camera)). So a refined method is the method itself with an error of interpolation on top, held below a share of the scene's tolerance. Both error and",
         f"cost depend on the picture's size: these are of {width}×{height} pixels and a tolerance of {REFINED_TOLERANCE:g} px, a pixel is 1/{height} of the angle of view, and the flat frame is of that size too. In a picture of 320×180, the",
         "size of all other costs here, far more of the pixels could not be interpolated. Evaluations are the mean over all pixels, interpolated ones included. Crossings count where the disk is.",
         "",
