@@ -16,7 +16,7 @@ from .resolution import COARSEST, Resolution
 
 # A scene whose programs have not drawn yet is drawn coarse first, whether rays may be interpolated or not: the first draw makes drivers finish
 # what compiling began, and takes its time however few the pixels. After that nothing is missing.
-_REHEARSALS = (True, False)
+_REHEARSALS = (False, True)  # the one with fewer programs first
 
 # The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
 _VERTEX = """#version 330 core
@@ -141,6 +141,8 @@ class Picture:
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
         progressive = _REHEARSALS[self._rehearsed] if rehearsing else camera_moving or not (exact or self.is_current and self.is_sharp)
+        if rehearsing:
+            self.renderer.hit_map.forget()
         self.renderer.programs.deadline = self.preparation.deadline(now)
         try:
             report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True, progressive=progressive)

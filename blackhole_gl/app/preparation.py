@@ -15,6 +15,9 @@ from ..scene import Scene
 FRAME_SHARE_S = 0.05
 """Of a frame, after which no further program is begun. The one under way is finished: a longest frame is this, one program and its first draw."""
 
+FIRST_SHARE_S = 0.25
+"""The same before there is any picture. The panel's own frames take time too, and the picture would wait for many of them."""
+
 _PATIENCE_S = 30.0  # for the other process, on a busy machine; then the window does it alone
 
 
@@ -32,6 +35,7 @@ class Preparation:
         self._submit = submit
         self._elsewhere: Future | None = None
         self._may_compile = True  # the first picture has nothing to wait for: there is none to show meanwhile
+        self._share = FIRST_SHARE_S
         self.since: float | None = None
 
     def waits(self, now: float) -> bool:
@@ -47,7 +51,7 @@ class Preparation:
 
     def deadline(self, now: float) -> float:
         """After when no program may be compiled, for ``Programs.deadline``."""
-        return now + FRAME_SHARE_S if self._may_compile else -math.inf
+        return now + self._share if self._may_compile else -math.inf
 
     def missed(self, scene: Scene, size: tuple[int, int], now: float) -> None:
         """A program of `scene` was missing; its first picture will have this `size`."""
@@ -58,7 +62,7 @@ class Preparation:
 
     def over(self) -> None:
         """Nothing is missing any more: a picture is there, or an error."""
-        self.since, self._may_compile = None, self._submit is None
+        self.since, self._may_compile, self._share = None, self._submit is None, FRAME_SHARE_S
 
     def _hand_over(self, scene: Scene, size: tuple[int, int]) -> None:
         try:

@@ -55,7 +55,7 @@ def _renderer() -> None:
 
 
 def _draw(scene: Scene, size: tuple[int, int]) -> None:
-    """Draws `scene` as a window does that has just switched to it: coarse, then interpolated, then every pixel; a sky that is kept last."""
+    """Draws `scene` in every way a window does: rays interpolated or not, a sky that is kept or not."""
     renderer = _shared()
     for _ in range(2):  # Mesa stores one variant of a program for each time that it is compiled, and some are drawn with in two
         for progressive in (True, False, False):

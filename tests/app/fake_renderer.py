@@ -34,12 +34,20 @@ class FakePrograms:
         return self.errors
 
 
+class FakeHitMap:
+    """A hit map that has nothing to forget."""
+
+    def forget(self):
+        pass
+
+
 class FakeRenderer:
     """Keeps what it was asked for and fills the target with a colour that depends on the camera's azimuth."""
 
     def __init__(self, gl):
         self.calls = []
         self.programs = FakePrograms()
+        self.hit_map = FakeHitMap()
         self.fail = None
         self.us_per_pixel = 0.0
 

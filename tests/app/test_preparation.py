@@ -5,7 +5,7 @@ from concurrent.futures import Future
 
 import pytest
 
-from blackhole_gl.app.preparation import FRAME_SHARE_S, Preparation
+from blackhole_gl.app.preparation import FIRST_SHARE_S, FRAME_SHARE_S, Preparation
 
 SIZE = (8, 8)
 
@@ -36,7 +36,7 @@ def preparation(elsewhere):
 
 def test_the_first_picture_waits_for_nobody(elsewhere):
     first = Preparation(elsewhere)
-    assert first.deadline(5.0) == 5.0 + FRAME_SHARE_S
+    assert first.deadline(5.0) == 5.0 + FIRST_SHARE_S
     first.missed("scene", SIZE, 5.0)
     assert not elsewhere.futures and not first.waits(6.0)
 
