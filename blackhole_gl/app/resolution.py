@@ -22,7 +22,7 @@ REST_SHARE = 0.5
 
 _LEAVE = 0.9  # steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
-_LEAST_SHARE = 0.25  # of a frame's time that is the picture's, however much the panel takes
+_LEAST_SHARE = 0.5  # of a frame that is the picture's: where all else takes more, a coarser picture does not bring the frame rate back
 _REMEMBERED = 9  # frames
 
 
