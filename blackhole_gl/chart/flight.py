@@ -67,7 +67,7 @@ def camera_at(scene: Scene, share: float) -> Scene:
         scene.camera,
         distance=far ** (1.0 - near) * NEAREST**near,
         fov_deg=view ** (1.0 - near) * _WIDEST**near,
-        inclination_deg=max(0.0, 60.0 - 60.0 * math.cos(math.radians(720.0 * share + _FIRST_PHASE))),
+        inclination_deg=round(60.0 - 60.0 * math.cos(math.radians(720.0 * share + _FIRST_PHASE)), 9),  # in the plane is at 90, not a hair below
         azimuth_deg=360.0 * share,
     )
     return replace(scene, camera=camera)
