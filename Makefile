@@ -39,7 +39,7 @@ chart: ## measure every method: docs/accuracy.md, its charts, and the table the 
 	@$(SETUP) chart
 	$(BIN)/blackhole-gl chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
 
-test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures
+test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight
 	@$(SETUP) test
 	$(BIN)/python -m pytest -n $(WORKERS) -m slow $(PYTEST_ARGS)
 

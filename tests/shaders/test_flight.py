@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from blackhole_gl import presets
-from blackhole_gl.chart import flight
+from blackhole_gl.chart import flight, pictures
 from blackhole_gl.chart.flight import FlightFrame
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
@@ -70,6 +72,13 @@ def test_the_flight_goes_where_it_is_said_to_go(scene: Scene) -> None:
 def test_exact_pictures_have_nothing_to_compare(renderer: Renderer, scene: Scene) -> None:
     with pytest.raises(ValueError, match="no refinement"):
         flight.drawn(renderer, scene.with_values({"rays.refine": False}), 0.0, SMALL)
+
+
+def test_the_plot_shows_every_part(tmp_path: Path) -> None:
+    frames = [FlightFrame(t, 20.0 - t, 80.0 - t, t, 42.0, 0.3, 0.1, 0, 2, 0.004, 0.1, 0.2) for t in (0.0, 1.0, 2.0)]
+    pictures.draw_flight(tmp_path / "flight.png", frames, 0.5)
+    shown = np.asarray(Image.open(tmp_path / "flight.png").convert("L")) < 200
+    assert all(rows.mean() > 0.005 for rows in np.array_split(shown, 4)), "four panels, one above the other"
 
 
 @pytest.mark.parametrize("index, step_px", [(0, 0.1), (40, 0.25), (110, 0.1), (165, 0.1), (200, 0.1)])
