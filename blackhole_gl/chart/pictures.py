@@ -163,7 +163,7 @@ def draw_sizes(path: Path, costs: Sequence[Cost]) -> None:
 
 
 def draw_flight(path: Path, frames: Sequence[FlightFrame], tolerance: float) -> None:
-    """Frame by frame: displacement in pixels, ꟻLIP, the pixels traced, and where the camera is.
+    """Frame by frame: displacement in pixels, ꟻLIP, the share of pixels that had rays of their own, and where the camera is.
 
     Args:
         tolerance: in pixels.
@@ -189,6 +189,8 @@ def draw_flight(path: Path, frames: Sequence[FlightFrame], tolerance: float) -> 
     distance = camera.twinx()
     curve(distance, "distance", "distance (right)", _COLOURS[4])
     distance.set(ylabel="distance [r_s]", yscale="log", ylim=(1.2, 60.0))
+    distance.set_yticks((2, 5, 10, 20), ("2", "5", "10", "20"))
+    distance.minorticks_off()
     distance.grid(False)
     for axes in (moved, looks, traced):
         axes.legend(fontsize=7, frameon=False, ncols=3, loc="upper right")
