@@ -91,8 +91,9 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         reasons.append("no crossings are looked for: the disk is off")
     elif orders < scene.rays.orders and not keep_crossings:
         reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
+    refine, why = _refines(scene, model, made)
     if model.traits["kind"] == "closed":
-        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, 0.0, tuple(reasons))
+        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, refine_px(scene) if refine else 0.0, (*reasons, why))
     control = scene.rays.step_control
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
@@ -105,7 +106,6 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     if stretch > 1.0:
         reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
     stretch = max(1.0, stretch)
-    refine, why = _refines(scene, made)
     reasons.append(why)
     return RayPlan(
         model,
@@ -149,12 +149,14 @@ def refine_px(scene: Scene) -> float:
     return _REFINE_SHARE * scene.rays.tolerance
 
 
-def _refines(scene: Scene, made: choice.Choice) -> tuple[bool, str]:
-    """Whether the marched rays of `scene`, which leaves nothing open, are refined while the camera moves, and why.
+def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, str]:
+    """Whether the hit map of `scene`, which leaves nothing open, is refined while the camera moves, and why.
 
     The method stays that of the picture at rest, though a coarser one might do for the camera's way: another method would be another
-    program to wait for and a jump when the camera stops. Closed models are not asked for: their rays cost no more than interpolating.
+    program to wait for and a jump when the camera stops.
     """
+    if model.traits["kind"] == "closed" and (model.traits["space_time"] == "flat" or not model.traits["exact"]):
+        return False, "moving: a ray for every pixel, as it costs no more than interpolating"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
     found = choice.refinement(scene)

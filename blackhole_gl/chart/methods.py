@@ -112,7 +112,7 @@ def refined(scene: Scene, quick: bool = False) -> list[Method]:
     """The methods worth measuring with refinement for `scene`.
 
     Those that the plan may come to: the model made for this kind of hole, marched in Mino time by its separated equations (any other march
-    costs several times as much), with the best integrators. Where there is no spin the plan takes a closed model, and a march only when it
+    costs several times as much), with the best integrators; and exact closed models. Where there is one the plan takes a march only when it
     is told to: one integrator will do.
     """
     spins = scene.hole.spin != 0.0
@@ -120,7 +120,8 @@ def refined(scene: Scene, quick: bool = False) -> list[Method]:
     models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and wanted.items() <= model.traits.items()]
     integrators = _BEST if spins and not quick else ("rk4",)
     marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits["step_control"]])]
-    return [replace(method, refined=True) for method in marched]
+    closed = [Method(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits["kind"] == "closed"]
+    return [replace(method, refined=True) for method in marched + closed]
 
 
 def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Method]:

@@ -32,6 +32,7 @@ CAMERAS = {
     "no disk": {"disk.enabled": False},
     "one order": {"rays.orders": 1},
     "two orders": {"rays.orders": 2},
+    "table": {"hole.spin": 0.0, "rays.model": "schwarzschild_table"},
     "marched without spin": {"hole.spin": 0.0, "rays.model": "schwarzschild_binet"},
 }
 
@@ -104,7 +105,7 @@ def test_exact_is_what_is_asked_for(renderer: Renderer) -> None:
     assert report.traced and report.sharp and not report.sharpened
 
 
-@pytest.mark.parametrize("values", [{"rays.refine": False}, {"rays.lensing": False}, {"post.view": "steps"}, {"rays.model": "schwarzschild_table", "hole.spin": 0.0}])
+@pytest.mark.parametrize("values", [{"rays.refine": False}, {"rays.lensing": False}, {"post.view": "steps"}, {"rays.model": "weak_field", "hole.spin": 0.0}])
 def test_where_refinement_is_off_or_saves_nothing_rays_are_exact(renderer: Renderer, values: dict) -> None:
     renderer.hit_map.forget()
     assert renderer.render(_scene(**values), 0.0, SIZE, progressive=True).sharp

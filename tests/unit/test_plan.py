@@ -137,9 +137,11 @@ def test_steps_stated_by_hand_that_miss_the_tolerance_are_refined_all_the_same(m
     assert plan.plan(SPINNING.with_values({"rays.tolerance": 0.001})).refine_px > 0.0, "no method meets it"
 
 
-def test_what_was_not_measured_is_refined_where_it_is_marched(monkeypatch):
+def test_what_was_not_measured_is_refined_unless_its_rays_cost_nothing(monkeypatch):
     monkeypatch.setattr(choice, "refinement", lambda scene: None)
     made = planned()
     assert made.refine_px == pytest.approx(0.4) and "not measured" in _moving(made.reasons)
-    closed = planned(rays__model="schwarzschild_table", hole__spin=0.0)
-    assert closed.refine_px == 0.0 and not any("moving" in reason for reason in closed.reasons)
+    assert planned(rays__model="schwarzschild_table", hole__spin=0.0).refine_px == pytest.approx(0.4)
+    for model in ("weak_field", "screen_lens", "flat"):
+        cheap = planned(rays__model=model, hole__spin=0.0)
+        assert cheap.refine_px == 0.0 and "no more than interpolating" in _moving(cheap.reasons)
