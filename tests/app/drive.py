@@ -17,6 +17,7 @@ from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that 
 
 import scenarios  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
+from hands import Hands  # noqa: E402
 
 from blackhole_gl import presets  # noqa: E402
 from blackhole_gl.app import window  # noqa: E402
@@ -56,7 +57,7 @@ class EngineDriver:
         self.failed.append(scenario.__name__)
         try:
             app.open(presets.load(PRESETS), PRESETS)
-            scenario(scenarios.Hands(context, app, folder))
+            scenario(Hands(context, app, folder))
             # What the engine could not find or click is an error of its own, which raises nothing.
             if not context.is_error():
                 self.failed.remove(scenario.__name__)

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Callable
 
 import numpy as np
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 import glfw
 from PIL import Image
@@ -18,62 +17,12 @@ from PIL import Image
 from blackhole_gl import plan, presets
 from blackhole_gl.app import preset_switch
 from blackhole_gl.app.live_chart import is_used, use
-from blackhole_gl.app.window import PANEL, Window
-from blackhole_gl.scene import Scene, fields
+from blackhole_gl.scene import fields
+from hands import Frames, Hands, wait
 
 Key = imgui.Key
 LONGEST_FRAME_S = 0.6  # twice what is promised: where others share the core, processor time counts double
 PICTURES = "pictures"  # the folder that F12 fills, beside the scenarios' own
-
-
-class Hands:
-    """Mouse and keyboard, and what they find."""
-
-    def __init__(self, context, window: Window, folder: Path):
-        self.context, self.window, self.folder = context, window, folder
-        context.yield_(3)
-
-    @property
-    def state(self):
-        return self.window.state
-
-    @property
-    def scene(self) -> Scene:
-        return self.state.scene
-
-    def settle(self) -> None:
-        """Waits until the camera rests."""
-        for _ in range(400):
-            self.context.yield_()
-            if self.state.motion.at_rest:
-                return
-        raise AssertionError("the camera does not come to rest")
-
-    def to_picture(self) -> tuple[float, float]:
-        """Moves the mouse to the picture's centre and returns it."""
-        view = self.window.view()
-        centre = (view.left + 0.5 * view.width, view.top + 0.5 * view.height)
-        self.context.mouse_move_to_pos(centre)
-        return centre
-
-    def press(self, chord: int) -> None:
-        self.context.key_press(chord)
-        self.context.yield_(2)
-
-    def item(self, name: str) -> str:
-        """The path of the panel's item `name`, wherever in the panel it lies."""
-        self.context.scroll_to_top(f"//{PANEL}")  # a table that is out of sight has no items
-        return f"//{PANEL}/**/{name}"
-
-    def click(self, name: str) -> None:
-        self.context.item_click(self.item(name))
-        self.context.yield_(2)
-
-    def choose(self, combo: str, option: str) -> None:
-        self.context.scroll_to_top(f"//{PANEL}")
-        self.context.item_click(f"//{PANEL}/pickers/{combo}")  # a closed combo has no label that a search could find
-        self.context.item_click(f"//##Combo_00/{option}")
-        self.context.yield_(2)
 
 
 def orbit_by_drag(hands: Hands) -> None:
@@ -338,7 +287,7 @@ def real_picture(hands: Hands) -> None:
     assert with_disk.max() > 200, "there is light"
     centre = with_disk[with_disk.shape[0] // 2 - 5 :, with_disk.shape[1] // 2]
     assert centre.min() == 0, "and there is the shadow"
-    _wait(hands, lambda: hands.window.picture.rays is not None)
+    wait(hands, lambda: hands.window.picture.rays is not None)
     assert hands.window.picture.rays.unresolved == 0 and hands.window.picture.rays.steps > 1
     hands.press(Key.space)
     without_disk = np.asarray(Image.open(_save_picture(hands)))
@@ -350,7 +299,7 @@ def _save_picture(hands: Hands) -> Path:
     folder = hands.folder.parent / PICTURES
     before = set(folder.glob("*.png"))
     hands.press(Key.f12)
-    _wait(hands, lambda: not hands.state.picture_wanted, seconds=60.0)  # its programs may have to be compiled
+    wait(hands, lambda: not hands.state.picture_wanted, seconds=60.0)  # its programs may have to be compiled
     (path,) = set(folder.glob("*.png")) - before
     return path
 
@@ -372,22 +321,22 @@ def shader_edited(hands: Hands) -> None:
     file = hands.folder.parent / "shaders" / "trace.frag"
     text = file.read_text(encoding="utf-8")
     file.write_text(text + "\nfloat broken = ;\n", encoding="utf-8")
-    _wait(hands, lambda: hands.state.shader_error is not None)
+    wait(hands, lambda: hands.state.shader_error is not None)
     assert f"trace.frag:{text.count(chr(10)) + 2}" in hands.state.shader_error, hands.state.shader_error
     assert hands.state.render_error is None, "the last good program goes on"
     file.write_text(text, encoding="utf-8")
-    _wait(hands, lambda: hands.state.shader_error is None)
+    wait(hands, lambda: hands.state.shader_error is None)
 
 
 def live_chart(hands: Hands) -> None:
     """C opens the chart, which fills by itself and leaves the picture's own hit map alone; a point's method can be taken."""
     hands.press(Key.p)
     hands.settle()
-    _wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
+    wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
     hands.press(Key.c)
     chart, traces = hands.window.live_chart, hands.window.picture.renderer.hit_map.traces
     assert hands.state.show_chart and chart.busy(hands.state)
-    _wait(hands, lambda: len(chart.points) >= 3, seconds=50.0)
+    wait(hands, lambda: len(chart.points) >= 3, seconds=50.0)
     assert hands.window.picture.renderer.hit_map.traces == traces
     assert not hands.state.render_error and not hands.state.shader_error
     best = min(chart.points, key=lambda point: point.pixels)
@@ -396,11 +345,11 @@ def live_chart(hands: Hands) -> None:
     use(best, hands.state)
     hands.context.yield_(2)
     assert [is_used(point, hands.scene, plan.plan(hands.scene)) for point in (best, worst)] == [True, False]
-    _wait(hands, lambda: hands.window.picture.is_current, seconds=60.0)
+    wait(hands, lambda: hands.window.picture.is_current, seconds=60.0)
     assert hands.window.picture.report.method.startswith(best.method.model)
     assert best in chart.points, "another method is no other view"
     hands.state.change({"hole.gravity_strength": 2.0})
-    _wait(hands, lambda: not chart.points)
+    wait(hands, lambda: not chart.points)
     hands.press(Key.c)
     assert not hands.state.show_chart and not chart.busy(hands.state)
 
@@ -408,7 +357,7 @@ def live_chart(hands: Hands) -> None:
 def preset_switches_never_freeze(hands: Hands) -> None:
     """Every shipped preset picked in turn, with nothing compiled before: no frame is long, and the old picture stays until the new one is there."""
     picture, frames = hands.window.picture, Frames(hands.window)
-    _wait(hands, lambda: picture.is_current, seconds=60.0)
+    wait(hands, lambda: picture.is_current, seconds=60.0)
     waited, longest = 0, (0.0, "")
     for info in presets.available():
         before = picture.report
@@ -419,7 +368,7 @@ def preset_switches_never_freeze(hands: Hands) -> None:
             waited += 1
             time.sleep(0.02)  # leaves the processor to the one that compiles; it is not counted
             hands.context.yield_()
-        _wait(hands, lambda: picture.is_current, seconds=60.0)
+        wait(hands, lambda: picture.is_current, seconds=60.0)
         hands.context.yield_(2)
         assert hands.state.render_error is None and picture.report is not before
         longest = max(longest, (frames.longest, info.name))
@@ -427,38 +376,6 @@ def preset_switches_never_freeze(hands: Hands) -> None:
     print(f"longest frame of a switch: {longest[0]:.2f} s, to {longest[1]}")
     assert waited > 0, "nothing had to be compiled: the driver's cache was not empty"
     frames.leave()
-
-
-class Frames:
-    """How long the window's frames take, in processor time of the window's own thread: what compiles and what holds the panel up. On a shared
-    machine a wall clock would measure others' work. Software renderers draw in threads of their own, and how long that takes is another matter."""
-
-    def __init__(self, window: Window):
-        self._window, self._own = window, window.before_frame
-        hello_imgui.get_runner_params().callbacks.pre_new_frame = self._begin
-        self.restart()
-
-    def restart(self) -> None:
-        self.longest, self.count, self._last = 0.0, 0, None
-
-    def leave(self) -> None:
-        hello_imgui.get_runner_params().callbacks.pre_new_frame = self._own
-
-    def _begin(self) -> None:
-        now = time.thread_time()
-        if self._last is not None:
-            self.longest = max(self.longest, now - self._last)
-            self.count += 1
-        self._last = now
-        self._own()
-
-
-def _wait(hands: Hands, for_what: Callable[[], bool], seconds: float = 2.0) -> None:
-    """Lets frames pass until `for_what`, two seconds at most: twice what an edit may take."""
-    started = time.monotonic()
-    while not for_what():
-        assert time.monotonic() - started < seconds, "nothing happened"
-        hands.context.yield_()
 
 
 WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, preset_switches_never_freeze)

@@ -1,0 +1,94 @@
+"""What scenarios act with and look through: a user's hands, the frames that pass."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Callable
+
+from imgui_bundle import hello_imgui
+
+from blackhole_gl.app.window import PANEL, Window
+from blackhole_gl.scene import Scene
+
+
+class Hands:
+    """Mouse and keyboard, and what they find."""
+
+    def __init__(self, context, window: Window, folder: Path):
+        self.context, self.window, self.folder = context, window, folder
+        context.yield_(3)
+
+    @property
+    def state(self):
+        return self.window.state
+
+    @property
+    def scene(self) -> Scene:
+        return self.state.scene
+
+    def settle(self) -> None:
+        """Waits until the camera rests."""
+        for _ in range(400):
+            self.context.yield_()
+            if self.state.motion.at_rest:
+                return
+        raise AssertionError("the camera does not come to rest")
+
+    def to_picture(self) -> tuple[float, float]:
+        """Moves the mouse to the picture's centre and returns it."""
+        view = self.window.view()
+        centre = (view.left + 0.5 * view.width, view.top + 0.5 * view.height)
+        self.context.mouse_move_to_pos(centre)
+        return centre
+
+    def press(self, chord: int) -> None:
+        self.context.key_press(chord)
+        self.context.yield_(2)
+
+    def item(self, name: str) -> str:
+        """The path of the panel's item `name`, wherever in the panel it lies."""
+        self.context.scroll_to_top(f"//{PANEL}")  # a table that is out of sight has no items
+        return f"//{PANEL}/**/{name}"
+
+    def click(self, name: str) -> None:
+        self.context.item_click(self.item(name))
+        self.context.yield_(2)
+
+    def choose(self, combo: str, option: str) -> None:
+        self.context.scroll_to_top(f"//{PANEL}")
+        self.context.item_click(f"//{PANEL}/pickers/{combo}")  # a closed combo has no label that a search could find
+        self.context.item_click(f"//##Combo_00/{option}")
+        self.context.yield_(2)
+
+
+class Frames:
+    """How long the window's frames take, in processor time of the window's own thread: what compiles and what holds the panel up. On a shared
+    machine a wall clock would measure others' work. Software renderers draw in threads of their own, and how long that takes is another matter."""
+
+    def __init__(self, window: Window):
+        self._own = window.before_frame
+        hello_imgui.get_runner_params().callbacks.pre_new_frame = self._begin
+        self.restart()
+
+    def restart(self) -> None:
+        self.longest, self.count, self._last = 0.0, 0, None
+
+    def leave(self) -> None:
+        hello_imgui.get_runner_params().callbacks.pre_new_frame = self._own
+
+    def _begin(self) -> None:
+        now = time.thread_time()
+        if self._last is not None:
+            self.longest = max(self.longest, now - self._last)
+            self.count += 1
+        self._last = now
+        self._own()
+
+
+def wait(hands: Hands, for_what: Callable[[], bool], seconds: float = 2.0) -> None:
+    """Lets frames pass until `for_what`, at most so many seconds; two are twice what an edit of a shader may take."""
+    started = time.monotonic()
+    while not for_what():
+        assert time.monotonic() - started < seconds, "nothing happened"
+        hands.context.yield_()
