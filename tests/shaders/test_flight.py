@@ -12,6 +12,7 @@ from PIL import Image
 from blackhole_gl import presets
 from blackhole_gl.chart import flight, pictures
 from blackhole_gl.chart.flight import FlightFrame
+from blackhole_gl.chart.flip import flip
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
 
@@ -23,7 +24,7 @@ FRAMES = (0, 10, 13, 30, 60, 80, 110, 135, 160, 185, 235, 260)
 # Where the whole flight's displacement, one pixel's ꟻLIP and the mean ꟻLIP are largest (docs/data/flight.csv).
 WORST = (145, 208, 213)
 
-# Half of the mean ꟻLIP (0.031 to 0.039 in this flight) of a frame against itself one grey level lighter: less than the screen's own steps show.
+# Less than half of the mean ꟻLIP of a frame against itself one grey level lighter, the least step of a screen; a test below sees to it.
 LARGEST_MEAN_FLIP = 0.015
 
 # Grey levels of 255, mean over a block of 8×8 pixels: a block that came and went by more could be seen, as one grey level is the least a screen shows.
@@ -68,6 +69,13 @@ def test_the_flight_goes_where_it_is_said_to_go(scene: Scene) -> None:
     assert np.all(np.diff([camera.azimuth_deg for camera in cameras]) > 0.0)
     for path in (tilt, np.log(distance), np.log([camera.fov_deg for camera in cameras])):
         assert np.abs(np.diff(path, 2)).max() < 0.1 * np.abs(np.diff(path)).max()
+
+
+@pytest.mark.parametrize("index", [0, 120])
+def test_the_bound_on_flip_is_less_than_half_a_grey_level(renderer: Renderer, scene: Scene, index: int) -> None:
+    exact = flight.drawn(renderer, flight.camera_at(scene, index / COUNT), 0.0, SMALL).exact
+    lighter = np.where(exact < 255, exact + 1, 254).astype(np.uint8)
+    assert flip(exact, lighter).mean() > 2.0 * LARGEST_MEAN_FLIP
 
 
 def test_exact_pictures_have_nothing_to_compare(renderer: Renderer, scene: Scene) -> None:
