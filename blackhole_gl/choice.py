@@ -198,6 +198,7 @@ def predictions(scene: Scene) -> Iterator[Prediction]:
             yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), nearest.cost)
 
 
+@lru_cache(maxsize=64)
 def refinement(scene: Scene) -> Refinement | None:
     """What to expect of refined hit maps in `scene`, which leaves nothing open; None where its method was not measured with them."""
     if _not_measured(scene):
@@ -205,7 +206,7 @@ def refinement(scene: Scene) -> Refinement | None:
     near, method = _nearest_scenes(scene), _stated_method(scene)
     rows: dict[tuple[str, bool], Measured] = {}
     for row in measurements():
-        if row.scene in near and row.model == method.model and row.method == method:
+        if row.integrator == method.integrator and row.scene in near and row.method == method:
             rows[row.scene, row.refined] = row
     if len(rows) < 2 * len(near):
         return None
@@ -214,15 +215,20 @@ def refinement(scene: Scene) -> Refinement | None:
     if any(rows[name, True].wrong_fates > _WRONG_FATES for name in near):
         error = math.inf
     # Interpolation's error goes as the second derivative, which falls as the square of the distance to the critical curve: pixels with rays
-    # of their own grow as 1/√tolerance. Taken for the whole cost, that is too much rather than too little.
-    dearer = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
-    return Refinement(error, nearest.cost * dearer, nearest.cost_unrefined)
+    # of their own grow as 1/√tolerance. They are taken for all of the cost but a flat frame's: rather too much than too little.
+    more = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
+    return Refinement(error, 1.0 + (nearest.cost - 1.0) * more, nearest.cost_unrefined)
 
 
 def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> float:
-    """What `scene` may expect from a measured scene's two rows: there as here the pixels of interpolation's error follow the tolerance."""
-    march, both = (_pixels(scene, row.fov_deg, row.distance, REFINED_SIZE[1], row.direction_99, row.crossing_r_99) for row in (marched, refined))
-    return march + max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
+    """What `scene` may expect from a measured scene's two rows.
+
+    The march errs by an angle, whatever a pixel is; interpolation by a share of a pixel, there as here, which follows the tolerance.
+    """
+    height = REFINED_SIZE[1]
+    march, both = (_pixels(scene, row.fov_deg, row.distance, height, row.direction_99, row.crossing_r_99) for row in (marched, refined))
+    added = max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
+    return error_px(scene, marched.direction_99, marched.crossing_r_99, height) + added
 
 
 def _stated_method(scene: Scene) -> Method:

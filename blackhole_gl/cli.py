@@ -144,7 +144,7 @@ def plan(
 
     scene = _scene(preset, set_)
     chosen, made = planning.choice.choose(scene), planning.plan(scene)
-    moving = planning.choice.refinement(chosen.scene) if made.integrator is not None else None
+    moving = planning.choice.refinement(chosen.scene)
     print(f"method     {made.method}")
     print(f"steps      at most {made.max_steps}, {made.evaluations_per_step} evaluations each")
     print(f"crossings  {made.orders} orders")
@@ -158,7 +158,7 @@ def plan(
         renderer = _renderer(backend)
         found = measured(renderer, scene)
         print(f"measured   {found.error_px:.2g} px at 99 % of the pixels, {found.cost:.3g} flat frames")
-        if made.integrator is not None:
+        if made.refine_px or moving is not None:
             print(f"  refined  {measured_refined(renderer, scene)}")
     for reason in made.reasons:
         print(f"  - {reason}")

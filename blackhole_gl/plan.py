@@ -91,13 +91,14 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         reasons.append("no crossings are looked for: the disk is off")
     elif orders < scene.rays.orders and not keep_crossings:
         reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
-    refine, why = _refines(scene, model, made)
     if model.traits["kind"] == "closed":
+        refine, why = _refines(scene, model, made)
         return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, refine_px(scene) if refine else 0.0, (*reasons, why))
     control = scene.rays.step_control
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
         control = model.traits["step_control"]
+        scene = scene.with_values({"rays.step_control": control})
         reasons.append(f"steps by {control}: {'; '.join(against)}")
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
@@ -106,6 +107,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     if stretch > 1.0:
         reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
     stretch = max(1.0, stretch)
+    refine, why = _refines(scene, model, made)
     reasons.append(why)
     return RayPlan(
         model,

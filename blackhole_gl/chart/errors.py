@@ -33,8 +33,12 @@ class Errors:
     lost_crossings: float
 
 
-def compare(found: TracedRays, truth: TracedRays, chosen: np.ndarray) -> Errors:
-    """The errors of `found` on the rays `chosen`, a mask (N,)."""
+def compare(found: TracedRays, truth: TracedRays, chosen: np.ndarray, disk_edge: float | None = None) -> Errors:
+    """The errors of `found` on the rays `chosen`, a mask (N,).
+
+    Args:
+        disk_edge: radius in r_s that errors of crossing radii are relative to; their own radius when None.
+    """
     angle = angles_between(found, truth)[chosen]
     there = truth.crossing_r[chosen] <= LARGEST_DISK
     got = found.crossing_r[chosen] <= LARGEST_DISK
@@ -42,7 +46,7 @@ def compare(found: TracedRays, truth: TracedRays, chosen: np.ndarray) -> Errors:
     lost = (there & np.isnan(found.crossing_r[chosen])) | (got & np.isnan(truth.crossing_r[chosen]))
     return Errors(
         *_spread(angle),
-        _relative_99(found.crossing_r[chosen][both], truth.crossing_r[chosen][both]),
+        _relative_99(found.crossing_r[chosen][both], truth.crossing_r[chosen][both], disk_edge),
         _relative_99(found.crossing_g[chosen][both], truth.crossing_g[chosen][both]),
         float(np.mean(found.fate[chosen] != truth.fate[chosen])) if chosen.any() else float("nan"),
         float(np.sum(lost) / max(1, np.sum(there | got))),
@@ -62,8 +66,8 @@ def _spread(values: np.ndarray) -> tuple[float, float, float]:
     return float(np.median(values)), float(np.quantile(values, 0.99)), float(values.max())
 
 
-def _relative_99(found: np.ndarray, truth: np.ndarray) -> float:
+def _relative_99(found: np.ndarray, truth: np.ndarray, unit: float | None = None) -> float:
     with np.errstate(divide="ignore", invalid="ignore"):
-        error = np.abs(found / truth - 1.0)
+        error = np.abs(found - truth) / (np.abs(truth) if unit is None else unit)
     error = error[np.isfinite(error)]
     return float(np.quantile(error, 0.99)) if error.size else float("nan")

@@ -15,6 +15,9 @@ from .errors import Errors, compare
 from .methods import Method
 from .scenes import NEAR_CRITICAL, ChartScene
 
+# Of refined maps: frames so large are steady sooner than small ones.
+_REFINED_ROUNDS = 2
+
 # A frame that takes longer than this (seconds) is timed in one round only: its ratio is steady enough, and the chart has an end.
 _LONG_FRAME = 0.15
 
@@ -44,7 +47,7 @@ class Row:
         evaluations: of the right-hand side, mean over the rays.
         cost_flat_ratio: shortest frame time over the shortest of the flat frame, taken in turn.
         refined: 1 for a refined hit map, as a moving camera's (`refined.trace`): rays are the pixels of a picture of `choice.REFINED_SIZE`, and
-            that is what is timed.
+            that is what is timed. Its crossing_r_99 is relative to the disk's outer radius.
         cost_unrefined: of a refined row: the ratio at that size with a ray for every pixel.
         cost_low, cost_high: extremes of that ratio in the single rounds.
         milliseconds: of the frame, on the machine named in the table's head.
@@ -110,7 +113,8 @@ def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, setting
     """
     scenes = [method.applied(chart_scene.scene, setting) for setting in settings]
     if method.refined:
-        return [_refined_row(renderer, chart_scene, method, setting, scene, timings.rounds) for setting, scene in zip(settings, scenes)]
+        rounds = min(timings.rounds, _REFINED_ROUNDS)
+        return [_refined_row(renderer, chart_scene, method, setting, scene, rounds) for setting, scene in zip(settings, scenes)]
     costs = _costs(renderer, chart_scene.scene, scenes, timings)
     rows = []
     for setting, scene, cost in zip(settings, scenes, costs):
@@ -136,7 +140,8 @@ def _row(
 ) -> Row:
     """The row of the rays `found`: all those of `chart_scene`, or the first of them."""
     scene, near = chart_scene.scene, chart_scene.epsilon[: len(found.fate)] < NEAR_CRITICAL
-    errors, close = compare(found, truth, ~near), compare(found, truth, near)
+    edge = refined.disk_edge(scene) if method.refined else None
+    errors, close = compare(found, truth, ~near, edge), compare(found, truth, near, edge)
     own = errors if twin is None else compare(found, twin, ~near)
     camera = scene.camera
     step = {knob: setting if method.knob == knob else math.nan for knob in ("length", "angle", "tolerance")}

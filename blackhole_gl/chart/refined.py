@@ -55,7 +55,8 @@ def truth(chart_scene: ChartScene) -> TracedRays:
 
 def errors(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> Errors:
     """Errors of a refined map of `scene`, which is that of `chart_scene` with some method, at pixels off the critical curve."""
-    return compare(trace(renderer, scene, chart_scene.pixels), truth(chart_scene), chart_scene.epsilon[: chart_scene.count] >= NEAR_CRITICAL)
+    chosen = chart_scene.epsilon[: chart_scene.count] >= NEAR_CRITICAL
+    return compare(trace(renderer, scene, chart_scene.pixels), truth(chart_scene), chosen, disk_edge(chart_scene.scene))
 
 
 def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing, float]:
@@ -74,9 +75,14 @@ def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing,
     return timing.Timing(1e3 * min(taken), min(taken) / min(yard), (min(ratios), max(ratios))), every_pixel / min(yard)
 
 
+def disk_edge(scene: Scene) -> float:
+    """What errors of crossing radii are relative to, in r_s: interpolation errs by a length on the disk, as a pixel sees it, and not by a share of r."""
+    return plan.effective_disk_radii(scene)[1]
+
+
 def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
     """Crossing radii (…) in r_s, NaN where there is none on the disk."""
-    return np.where((r > 0.0) & (r <= plan.effective_disk_radii(scene)[1]), r, np.nan)
+    return np.where((r > 0.0) & (r <= disk_edge(scene)), r, np.nan)
 
 
 def _steps_a_pixel(renderer: Renderer, steps: np.ndarray) -> float:

@@ -52,7 +52,7 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     progress(0.99, "pictures and page")
     if plan_table is not None:
         table.write_contract(plan_table, rows, where)
-        for kept in (choice.measurements, choice.choose):  # what is marked is what the new table makes the plan choose
+        for kept in (choice.measurements, choice.choose, choice.refinement):  # what is marked is what the new table makes the plan choose
             kept.cache_clear()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE

@@ -117,6 +117,12 @@ def test_errors_of_rays_made_up_by_hand() -> None:
     assert math.isnan(errors.compare(found, truth, np.zeros(4, bool)).direction_99)
 
 
+def test_crossings_of_refined_maps_err_by_a_length_on_the_disk() -> None:
+    nowhere = [[np.nan] * 3] * 2
+    truth, found = (_rays(nowhere, [2, 2], r, [0.5, 0.5]) for r in ([4.0, 8.0], [4.2, 8.2]))
+    assert errors.compare(found, truth, np.ones(2, bool), disk_edge=10.0).crossing_r_99 == pytest.approx(0.02)
+
+
 def test_opposite_directions_are_half_a_turn_apart() -> None:
     one = _rays([[1, 0, 0]], [1], [np.nan], [np.nan])
     other = _rays([[-1, 0, 0]], [1], [np.nan], [np.nan])

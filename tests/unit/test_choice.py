@@ -115,7 +115,7 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     """A call that puts rows in the place of the stored table."""
 
     def forget() -> None:
-        for kept in (choice.choose, choice._nearest_scenes):
+        for kept in (choice.choose, choice.refinement, choice._nearest_scenes):
             kept.cache_clear()
 
     def put(*rows: choice.Measured) -> None:
@@ -147,18 +147,19 @@ def test_a_tighter_tolerance_interpolates_less(measured):
     scene = choice.choose(KERR.with_values({"rays.tolerance": 0.1})).scene
     found = choice.refinement(scene)
     assert found.error_px == pytest.approx(0.14)
-    assert found.cost == pytest.approx(3.0 * math.sqrt(5.0)) and found.cost_unrefined == 10.0
+    assert found.cost == pytest.approx(1.0 + 2.0 * math.sqrt(5.0)) and found.cost_unrefined == 10.0
     loose = choice.refinement(choice.choose(KERR.with_values({"rays.tolerance": 1.0})).scene)
     assert loose.cost == 3.0, "what was not measured is not hoped for"
 
 
-def test_between_two_measured_scenes_the_worse_is_believed_in_pixels_of_its_own(measured):
+def test_between_two_measured_scenes_the_worse_is_believed(measured):
+    """There a pixel is half as large: the march's angle is twice as many of them, which is no matter here, and interpolation adds 0.4 px."""
     there = {"scene": "there", "distance": 60.0, "fov_deg": 0.5 * CAMERA.fov_deg}
     measured(MARCHED, REFINED, replace(MARCHED, **there), replace(REFINED, **there, cost=4.0))
     scene = KERR.with_values({"camera.distance": 24.0})
     assert choice._nearest_scenes(scene) == ("here", "there")
     found = choice.refinement(choice.choose(scene).scene)
-    assert found.error_px == pytest.approx(0.6) and found.cost == 3.0
+    assert found.error_px == pytest.approx(0.1 + 0.4) and found.cost == 3.0
     measured(MARCHED, REFINED, replace(MARCHED, **there))
     assert choice.refinement(choice.choose(scene).scene) is None, "measured in one of the two only"
 

@@ -145,3 +145,9 @@ def test_what_was_not_measured_is_refined_unless_its_rays_cost_nothing(monkeypat
     for model in ("weak_field", "screen_lens", "flat"):
         cheap = planned(rays__model=model, hole__spin=0.0)
         assert cheap.refine_px == 0.0 and "no more than interpolating" in _moving(cheap.reasons)
+
+
+def test_a_step_control_that_gave_way_is_not_the_one_looked_up(monkeypatch):
+    """The quality presets state one for models that march in Cartesian steps."""
+    monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(0.1, 2.1, 4.4) if scene.rays.step_control == "mino" else None)
+    assert "2.1 flat frames" in _moving(planned(rays__model="kerr", rays__step_control="fixed").reasons)
