@@ -34,14 +34,14 @@ def refined_section(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> str:
         good = [row for row in rows if row.scene == item.name and row.refined and row.direction_99 <= REFINED_TOLERANCE * pixel]
         if good:
             best = min(good, key=lambda row: row.cost_flat_ratio)
-            lines.append(f"| {item.name} | {best.method.removesuffix(', refined')} | {best.setting:.2g} | " + " | ".join(_cells(best, _unrefined(rows, best), pixel)) + " |")
+            lines.append(f"| {item.name} | {best.method.removesuffix(', refined')} | {short(best.setting)} | " + " | ".join(_cells(best, _unrefined(rows, best), pixel)) + " |")
     return "\n".join(lines) + "\n"
 
 
 def _unrefined(rows: Sequence[Row], refined: Row) -> Row | None:
     """The row of the same method and step with a ray for every pixel."""
-    method = refined.method.removesuffix(", refined")
-    return next((row for row in rows if (row.scene, row.method, row.setting) == (refined.scene, method, refined.setting)), None)
+    wanted = refined.scene, refined.method.removesuffix(", refined"), short(refined.setting)
+    return next((row for row in rows if (row.scene, row.method, short(row.setting)) == wanted), None)
 
 
 def _cells(refined: Row, alone: Row | None, pixel: float) -> list[str]:

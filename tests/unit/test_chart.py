@@ -264,6 +264,9 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
     text = page.page(found, WHERE, "a test")
     assert "nan" not in text and "a machine" in text
     assert "1 methods" in text and "1 of them also refined" in text and "| a0_near | kerr, rk4, mino | 0.1 |" in text
+    closed = [replace(item, model="schwarzschild_table", integrator="", step_control="", step_angle=math.nan, cost_flat_ratio=0.1) for item in (row, refined_row)]
+    section = page.refined_section([*rows, *closed], [near]).splitlines()[-1]
+    assert section.startswith("| a0_near | schwarzschild_table | – |") and section.count("(") == 6, "each figure has its fellow"
     widths: dict[int, int] = {}
     for number, line in enumerate(text.splitlines()):
         if line.startswith("|"):
