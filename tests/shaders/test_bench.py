@@ -27,5 +27,5 @@ def test_the_command_prints_a_table_and_writes_json(tmp_path: Path, renderer: Re
     out = tmp_path / "bench.json"
     result = CliRunner().invoke(cli.app, ["bench", "--size", "32x18", "--rounds", "1", "--no-euler", "--json", str(out)])
     assert result.exit_code == 0, result.output
-    assert "| 32×18 | moving | table | schwarzschild_table |" in result.output
+    assert "| 32×18 | still | table | schwarzschild_table |" in result.output and "| 32×18 | moving | table | schwarzschild_table" in result.output
     assert len(json.loads(out.read_text(encoding="utf-8"))["rows"]) == 2 * len(bench.scenes(presets.load(["kerr"])))

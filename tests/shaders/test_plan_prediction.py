@@ -29,7 +29,9 @@ def test_the_measured_error_is_within_the_tolerance(renderer, name):
 def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, name):
     """In pixels of the picture that is interpolated."""
     scene = presets.load([name])
-    assert plan.plan(scene).refine_px > 0.0, "else a moving picture costs several times what it need"
+    made = plan.plan(scene)
+    # a look-up is nearly as cheap as interpolation: which of the two is taken is the table's to say
+    assert made.refine_px > 0.0 or made.integrator is None, "else a moving picture costs several times what it need"
     errors = refined.errors(renderer, ChartScene(name, scene), plan.resolved(scene))
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1]) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
