@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Iterator
 
 from . import catalogue, observer
@@ -89,7 +89,7 @@ class Measured:
     refined: bool
     cost_unrefined: float
 
-    @property
+    @cached_property
     def method(self) -> Method:
         """What tells methods apart, refinement left aside."""
         return Method(self.model, self.integrator, self.step_control, self.step_length, self.step_angle, self.step_tolerance)
@@ -189,8 +189,8 @@ def predictions(scene: Scene) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states."""
     near = _nearest_scenes(scene)
     by_method: dict[Method, list[Measured]] = {}
-    for row in measurements():
-        if row.scene in near and not row.refined and _fits(scene, row):
+    for row in _measured_in(near):
+        if not row.refined and _fits(scene, row):
             by_method.setdefault(row.method, []).append(row)
     for method, rows in by_method.items():
         if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows):
@@ -205,8 +205,8 @@ def refinement(scene: Scene) -> Refinement | None:
         return None
     near, method = _nearest_scenes(scene), _stated_method(scene)
     rows: dict[tuple[str, bool], Measured] = {}
-    for row in measurements():
-        if row.integrator == method.integrator and row.scene in near and row.method == method:
+    for row in _measured_in(near):
+        if row.method == method:
             rows[row.scene, row.refined] = row
     if len(rows) < 2 * len(near):
         return None
@@ -265,6 +265,26 @@ def measurements() -> tuple[Measured, ...]:
     with open(path, newline="", encoding="utf-8") as file:
         records = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return tuple(row for record in records if (row := _measured(record)) is not None)
+
+
+def forget_choices() -> None:
+    """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
+    for kept in (_by_scene, _nearest_scenes, choose, refinement):
+        kept.cache_clear()
+
+
+@lru_cache(maxsize=1)
+def _by_scene() -> dict[str, list[Measured]]:
+    """The table's rows by the scene they were measured in. Kept, as every frame of a moving camera is a scene to choose for."""
+    found: dict[str, list[Measured]] = {}
+    for row in measurements():
+        found.setdefault(row.scene, []).append(row)
+    return found
+
+
+def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
+    for name in scenes:
+        yield from _by_scene()[name]
 
 
 def _measured(record: dict[str, str]) -> Measured | None:
@@ -332,8 +352,7 @@ def _fits(scene: Scene, row: Measured) -> bool:
 @lru_cache(maxsize=64)
 def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
     """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    places = {row.scene: row for row in measurements()}
-    apart = sorted((_distance(scene, row), name) for name, row in places.items())
+    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _by_scene().items())
     if not apart:
         return ()
     return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])

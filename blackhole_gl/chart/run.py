@@ -52,8 +52,8 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     progress(0.99, "pictures and page")
     if plan_table is not None:
         table.write_contract(plan_table, rows, where)
-        for kept in (choice.measurements, choice.choose, choice.refinement):  # what is marked is what the new table makes the plan choose
-            kept.cache_clear()
+        choice.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
+        choice.forget_choices()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
     found = page.Findings(scenes, rows, points, costs, validation, best, chosen, table.read(outside) if outside.exists() else [])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Mapping
 
 import numpy as np
@@ -31,7 +32,7 @@ class Block:
     binding: int
     members: tuple[tuple[str, str], ...]
 
-    @property
+    @cached_property
     def dtype(self) -> np.dtype:
         """The structured dtype of one block, padded to 16 bytes as std140 asks."""
         names, formats, offsets, end = [], [], [], 0

@@ -94,9 +94,9 @@ def test_thin_rings_are_not_traced():
 
 def test_without_a_table_steps_are_plain(monkeypatch):
     monkeypatch.setattr(choice, "measurements", lambda: ())
-    choice.choose.cache_clear()
+    choice.forget_choices()
     made = choice.choose(Scene())
-    choice.choose.cache_clear()
+    choice.forget_choices()
     assert made.chosen is None and "no measurements" in made.reasons[0] and made.scene.rays.step_angle == 0.2
 
 
@@ -114,17 +114,13 @@ REFINED = replace(MARCHED, direction_99=0.3 * PIXEL, evaluations=13.0, cost=3.0,
 def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     """A call that puts rows in the place of the stored table."""
 
-    def forget() -> None:
-        for kept in (choice.choose, choice.refinement, choice._nearest_scenes):
-            kept.cache_clear()
-
     def put(*rows: choice.Measured) -> None:
         monkeypatch.setattr(choice, "measurements", lambda: rows)
-        forget()
+        choice.forget_choices()
 
     yield put
     monkeypatch.undo()
-    forget()
+    choice.forget_choices()
 
 
 def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(measured):
