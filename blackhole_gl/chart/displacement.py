@@ -6,26 +6,36 @@ import math
 
 import numpy as np
 
-from .. import plan
+from .. import observer, plan
 from ..render.hit_map import HitArrays
 from ..scene import Scene
 
 
 def displacement_px(scene: Scene, found: HitArrays, exact: HitArrays) -> np.ndarray:
-    """(height, width) displacement in pixels as the scene's tolerance counts it.
+    """(height, width) displacement in pixels.
 
-    Of escape directions where both escape, or of crossings on the disk as wide as its distance makes them, whichever is more.
+    Of escape directions where both escape, or of crossings on the disk, as large as they are at their straight distance from the camera,
+    whichever is more.
     """
-    pixel = math.radians(scene.camera.fov_deg) / found.fate.shape[0]
+    height = found.fate.shape[0]
+    pixel = math.radians(scene.camera.fov_deg) / height
     outer = plan.effective_disk_radii(scene)[1]
-    distance = outer if math.isinf(scene.camera.distance) else max(scene.camera.distance, outer)
     escaped = (found.fate == 1) & (exact.fate == 1)
     moved = np.where(escaped, np.linalg.norm(found.direction - exact.direction, axis=-1), 0.0)
     for n in range(3):
         a, b = found.crossing[..., n, :], exact.crossing[..., n, :]
         shown = _on_disk(a, outer) | _on_disk(b, outer)
-        moved = np.maximum(moved, np.where(shown, np.linalg.norm(a - b, axis=-1) / distance, 0.0))
+        moved = np.maximum(moved, np.where(shown, np.linalg.norm(a - b, axis=-1) / _distance(scene, b), 0.0))
     return moved / pixel
+
+
+def _distance(scene: Scene, crossing: np.ndarray) -> np.ndarray | float:
+    """How far from the camera, in r_s, something at `crossing` (…, 2) is as large as it is seen; for parallel rays what makes a pixel of them."""
+    camera = scene.camera
+    if math.isinf(camera.distance):
+        return 0.5 * camera.field_m / math.radians(camera.fov_deg)
+    place = camera.distance * observer.observe(scene).n
+    return np.sqrt(np.sum((crossing - place[:2]) ** 2, axis=-1) + place[2] ** 2)
 
 
 def _on_disk(crossing: np.ndarray, outer: float) -> np.ndarray:

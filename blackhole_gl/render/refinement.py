@@ -126,8 +126,12 @@ class CoarseGrid:
 
 
 def tolerances(scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> tuple[float, float, float]:
-    """(error of directions in rad, of crossings in r_s, radius in r_s within which crossings matter) that interpolation may make."""
+    """What interpolation may make of `ray_plan.refine_px` pixels, as shaders/refine_cells.frag takes it.
+
+    Returns:
+        Error of directions in rad; of crossings, for each r_s between them and the camera, or in r_s for parallel rays; radius in r_s within
+        which crossings matter.
+    """
     pixel = math.radians(scene.camera.fov_deg) / size[1]
-    outer = plan.effective_disk_radii(scene)[1]
-    distance = outer if math.isinf(scene.camera.distance) else max(scene.camera.distance, outer)
-    return ray_plan.refine_px * pixel, ray_plan.refine_px * pixel * distance, _BEYOND_DISK * outer
+    on_disk = 0.5 * scene.camera.field_m / size[1] if math.isinf(scene.camera.distance) else pixel
+    return ray_plan.refine_px * pixel, ray_plan.refine_px * on_disk, _BEYOND_DISK * plan.effective_disk_radii(scene)[1]
