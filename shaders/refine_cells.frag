@@ -10,7 +10,7 @@
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 
-uniform vec3 refine_tolerance; // of directions, rad; of crossings, for each r_s from the camera (parallel rays: r_s); radius within which crossings matter, r_s
+uniform vec3 refine_tolerance; // of directions, rad; of crossings, for each r_s from the camera (parallel rays: r_s); how far beyond the disk's edges crossings still matter, as a ratio of radii
 
 out uint cell_out;
 
@@ -38,10 +38,11 @@ uint crossing_kind(vec3 point[12], inout bool trusted, inout bool disk) {
         smallest = min(smallest, r2);
     }
     float away = camera_w > 0.0 ? distance(0.5 / camera_w * camera_n.xyz, point[0]) : 1.0;
-    bool matters = nearest < refine_tolerance.z * refine_tolerance.z;
+    vec2 edges = vec2(disk_r_in / refine_tolerance.z, disk_r_out * refine_tolerance.z);
+    bool matters = nearest < edges.y * edges.y && farthest > edges.x * edges.x;
     trusted = trusted && (!matters || smallest > 0.0 && interpolation_error(point) < refine_tolerance.y * away);
     disk = disk || nearest <= disk_r_out * disk_r_out && farthest >= disk_r_in * disk_r_in;
-    return matters ? CROSSING_NEAR : farthest > 0.0 ? CROSSING_FAR : CROSSING_NONE;
+    return matters ? CROSSING_SEEN : farthest > 0.0 ? CROSSING_UNSEEN : CROSSING_NONE;
 }
 
 void main() {

@@ -19,12 +19,12 @@ def displacement_px(scene: Scene, found: HitArrays, exact: HitArrays) -> np.ndar
     """
     height = found.fate.shape[0]
     pixel = math.radians(scene.camera.fov_deg) / height
-    outer = plan.effective_disk_radii(scene)[1]
+    edges = plan.effective_disk_radii(scene)
     escaped = (found.fate == 1) & (exact.fate == 1)
     moved = np.where(escaped, np.linalg.norm(found.direction - exact.direction, axis=-1), 0.0)
     for n in range(3):
         a, b = found.crossing[..., n, :], exact.crossing[..., n, :]
-        shown = _on_disk(a, outer) | _on_disk(b, outer)
+        shown = _on_disk(a, *edges) | _on_disk(b, *edges)
         moved = np.maximum(moved, np.where(shown, np.linalg.norm(a - b, axis=-1) / _distance(scene, b), 0.0))
     return moved / pixel
 
@@ -38,9 +38,9 @@ def _distance(scene: Scene, crossing: np.ndarray) -> np.ndarray | float:
     return np.sqrt(np.sum((crossing - place[:2]) ** 2, axis=-1) + place[2] ** 2)
 
 
-def _on_disk(crossing: np.ndarray, outer: float) -> np.ndarray:
+def _on_disk(crossing: np.ndarray, inner: float, outer: float) -> np.ndarray:
     r = np.linalg.norm(crossing, axis=-1)
-    return (r > 0.0) & (r <= outer)
+    return (r >= inner) & (r <= outer)
 
 
 def beside_an_edge(fate: np.ndarray) -> np.ndarray:

@@ -82,7 +82,8 @@ def disk_edge(scene: Scene) -> float:
 
 def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
     """Crossing radii (…) in r_s, NaN where there is none on the disk."""
-    return np.where((r > 0.0) & (r <= disk_edge(scene)), r, np.nan)
+    inner, outer = plan.effective_disk_radii(scene)
+    return np.where((r >= inner) & (r <= outer), r, np.nan)
 
 
 def _steps_a_pixel(renderer: Renderer, steps: np.ndarray) -> float:

@@ -13,7 +13,7 @@ from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
 from .programs import Programs, bind_samplers, draw
 
-# Crossings further out than the disk's edge by this factor do not matter: room for what lies between two nodes of the grid.
+# Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
 
 # Between the depth of pixels with rays of their own and all others in shaders/refine_classes.frag.
@@ -129,9 +129,9 @@ def tolerances(scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> tuple[
     """What interpolation may make of `ray_plan.refine_px` pixels, as shaders/refine_cells.frag takes it.
 
     Returns:
-        Error of directions in rad; of crossings, for each r_s between them and the camera, or in r_s for parallel rays; radius in r_s within
-        which crossings matter.
+        Error of directions in rad; of crossings, for each r_s between them and the camera, or in r_s for parallel rays; how far
+        beyond the disk's edges crossings still matter, as a ratio of radii.
     """
     pixel = math.radians(scene.camera.fov_deg) / size[1]
     on_disk = 0.5 * scene.camera.field_m / size[1] if math.isinf(scene.camera.distance) else pixel
-    return ray_plan.refine_px * pixel, ray_plan.refine_px * on_disk, _BEYOND_DISK * plan.effective_disk_radii(scene)[1]
+    return ray_plan.refine_px * pixel, ray_plan.refine_px * on_disk, _BEYOND_DISK

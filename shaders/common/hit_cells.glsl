@@ -8,8 +8,8 @@
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
 
 const uint CROSSING_NONE = 0u;
-const uint CROSSING_NEAR = 1u; // to be interpolated
-const uint CROSSING_FAR = 2u;  // further out than matters, or none
+const uint CROSSING_SEEN = 1u; // to be interpolated
+const uint CROSSING_UNSEEN = 2u;  // further out than matters, or none
 
 int cell_fate(uint cell) {
     return int(cell & 3u);

@@ -21,7 +21,7 @@ uniform sampler2D coarse1;
 uniform sampler2D coarse2;
 #endif
 
-const vec2 FAR_CROSSING = vec2(1e6, 0.0); // r_s: so far that no pixel between it and another crossing shows any disk
+const vec2 UNSEEN_CROSSING = vec2(1e6, 0.0); // r_s; stands for one that is off the disk: so far out that no pixel beside it shows any
 #endif
 
 // The hits in the texels of the three textures; those of textures that are not there are vec4(0).
@@ -58,7 +58,7 @@ vec4 interpolated_escape(uint cell, vec2 place) {
 
 vec2 interpolated_crossing(uint cell, int n, vec2 point) {
     uint kind = cell_crossing(cell, n);
-    return kind == CROSSING_NEAR ? point : kind == CROSSING_FAR ? FAR_CROSSING : vec2(0.0);
+    return kind == CROSSING_SEEN ? point : kind == CROSSING_UNSEEN ? UNSEEN_CROSSING : vec2(0.0);
 }
 #endif
 
