@@ -124,7 +124,7 @@ def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, setting
 
 
 def _refined_row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float, scene: Scene, rounds: int) -> Row:
-    found = refined.trace(renderer, scene, chart_scene.pixels)
+    found = refined.trace(renderer, chart_scene, scene)
     cost, cost_unrefined = refined.costs(renderer, scene, rounds)
     return replace(_row(chart_scene, method, setting, found, refined.truth(chart_scene), None, cost), cost_unrefined=cost_unrefined)
 

@@ -18,25 +18,31 @@ from ..scene import Scene
 from .errors import Errors, compare
 from .scenes import NEAR_CRITICAL, ChartScene
 
+_BESIDE_EDGE = 0.02
+"""Relative error of a radius, far above any that is measured, up to which a crossing beside an edge is taken for the one on the other side."""
+
+_UNSEEN = 1e5
+"""r_s; beyond any crossing: what stands for one that is off the disk (shaders/common/hit_map_read.glsl)."""
+
 
 def refined_plan(scene: Scene, keep_crossings: bool = False) -> RayPlan:
     """The plan for `scene`, refined whether or not it would be."""
     return replace(plan.plan(scene, keep_crossings=keep_crossings), refine_px=plan.refine_px(scene))
 
 
-def trace(renderer: Renderer, scene: Scene, pixels: np.ndarray) -> TracedRays:
-    """What a refined map of `scene` holds at `pixels` (N, 2): x, y counted from the bottom left.
+def trace(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> TracedRays:
+    """What a refined map of `scene`, which is `chart_scene` with some method, holds at the pixels of `chart_scene`.
 
-    Crossings outside the disk are left out: interpolation does not look at them. Steps and evaluations are those of the whole picture, the
+    Crossings off the disk are left out: interpolation does not look at them. Steps and evaluations are those of the whole picture, the
     grid's own rays too, shared out among its pixels.
     """
     ray_plan = refined_plan(scene, keep_crossings=True)
     renderer.time_trace(scene, REFINED_SIZE, ray_plan, progressive=True)
     hits = renderer.hits()
-    x, y = pixels.T
-    steps = np.full(len(pixels), _steps_a_pixel(renderer, hits.steps))
+    x, y = chart_scene.pixels.T
+    steps = np.full(len(x), _steps_a_pixel(renderer, hits.steps))
     crossing = hits.crossing[y, x].astype(float)
-    r = _within(np.hypot(crossing[..., 0], crossing[..., 1]), scene)
+    r = _counted(np.hypot(crossing[..., 0], crossing[..., 1]), _true(chart_scene).crossing_r, scene)
     isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
     emitter_r = np.where(r >= isco, r, np.nan)
     g = relativity.circular_orbit_g(emitter_r, hits.lambda_[y, x][:, None], observer.effective_spin(scene), scene.disk.orbit)
@@ -48,15 +54,19 @@ def trace(renderer: Renderer, scene: Scene, pixels: np.ndarray) -> TracedRays:
 
 def truth(chart_scene: ChartScene) -> TracedRays:
     """What is true at the pixels of `chart_scene`, with the crossings that `trace` counts."""
-    whole = chart_scene.truth
-    part = TracedRays(*(getattr(whole, item.name)[: chart_scene.count] for item in fields(whole)))
+    part = _true(chart_scene)
     return replace(part, crossing_r=_within(part.crossing_r, chart_scene.scene))
+
+
+def _true(chart_scene: ChartScene) -> TracedRays:
+    whole = chart_scene.truth
+    return TracedRays(*(getattr(whole, item.name)[: chart_scene.count] for item in fields(whole)))
 
 
 def errors(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> Errors:
     """Errors of a refined map of `scene`, which is that of `chart_scene` with some method, at pixels off the critical curve."""
     chosen = chart_scene.epsilon[: chart_scene.count] >= NEAR_CRITICAL
-    return compare(trace(renderer, scene, chart_scene.pixels), truth(chart_scene), chosen, disk_edge(chart_scene.scene))
+    return compare(trace(renderer, chart_scene, scene), truth(chart_scene), chosen, disk_edge(chart_scene.scene))
 
 
 def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing, float]:
@@ -84,6 +94,16 @@ def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
     """Crossing radii (…) in r_s, NaN where there is none on the disk."""
     inner, outer = plan.effective_disk_radii(scene)
     return np.where((r >= inner) & (r <= outer), r, np.nan)
+
+
+def _counted(found: np.ndarray, true: np.ndarray, scene: Scene) -> np.ndarray:
+    """Those of the crossing radii `found` (…) that count: on the disk, or where truth is.
+
+    One that lies just on the other side of an edge than truth has an error in its radius, and is not lost.
+    """
+    on_disk = ~np.isnan(_within(true, scene))
+    beside = np.abs(found / true - 1.0) < _BESIDE_EDGE
+    return np.where(on_disk, np.where((found > 0.0) & (found < _UNSEEN), found, np.nan), np.where(beside, np.nan, _within(found, scene)))
 
 
 def _steps_a_pixel(renderer: Renderer, steps: np.ndarray) -> float:
