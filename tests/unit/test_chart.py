@@ -21,7 +21,7 @@ from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.render.frame import Renderer
 
 WHERE = table.Origin("a machine", "a renderer", "abc", "2026-01-01")
-TINY = measure.Timings((32, 18), 1)
+TINY = measure.Timings((32, 18), 1, 1)
 
 
 @pytest.fixture(scope="module")
