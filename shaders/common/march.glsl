@@ -62,6 +62,17 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 }
 #endif
 
+// A ray under way.
+struct March {
+    State s, next;  // before and after the last step
+    float h;        // its length
+#ifdef STEP_ADAPTS
+    float trial;
+#endif
+    int steps, fate;
+    bool crossed;   // z = 0, in the last step
+};
+
 // llvmpipe (Mesa 22.3) hands on what the body of a loop with one exit computed for a finished ray in later rounds. Where the body is a function of
 // the state alone that is the same, and saves copies of two states a round (docs/performance.md). A trial step or a change of chart is
 // altered by the round itself: those loops get a second exit, which keeps every ray's own values.
@@ -71,60 +82,75 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #define MARCH_REPEATS 1
 #endif
 
-// The inner loop only steps: software renderers run every branch of a loop body in every round, so what happens once a ray or
-// once a crossing stands outside it.
+// Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: software renderers run every branch of a loop's body in
+// every round, so what happens once a ray or once a crossing stands outside it.
+void march_on(Orbit orbit, bool seeks, inout March m) {
+#if MARCH_REPEATS
+    do {
+#else
+    while (m.steps < plan_max_steps) {
+#endif
+#ifdef RAY_RECHARTS
+        m.next = ray_recharted(m.s, m.next);
+#endif
+        m.s = m.next;
+#ifdef STEP_ADAPTS
+        m.next = adapted_step(orbit, m.s, m.trial, m.h);
+        m.next = completed(orbit, m.s, m.h, m.next);
+#else
+        m.h = step_size(orbit, m.s);
+        m.next = march_step(orbit, m.s, m.h);
+#endif
+        ++m.steps;
+        m.fate = ray_fate(orbit, m.next);
+#if ORDERS > 0
+        m.crossed = seeks && is_below(m.next) != is_below(m.s);
+#endif
+#if MARCH_REPEATS
+    } while (!m.crossed && m.fate == UNRESOLVED && m.steps < plan_max_steps);
+#else
+        if (m.crossed || m.fate != UNRESOLVED) break;
+    }
+#endif
+}
+
+// Where in the last step the ray escapes: beyond it unless it does, as the very end of a step may be a crossing.
+float march_end(Orbit orbit, March m) {
+    return m.fate == ESCAPED ? ray_end(orbit, m.s, m.next, m.h) : 2.0;
+}
+
 Hits trace_ray(RayStart start) {
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
-    State s = ray_init(start, orbit, hits);
-    State next = s;
-    float h = 0.0;
-    float end = 1.0;
-    int fate = UNRESOLVED;
-    int steps = 0;
+    March m;
+    m.s = ray_init(start, orbit, hits);
+    m.next = m.s;
+    m.h = 0.0;
 #ifdef STEP_ADAPTS
-    float trial = ray_plain_step(orbit, s);
+    m.trial = ray_plain_step(orbit, m.s);
 #endif
-    for (int leg = 0; leg <= ORDERS; ++leg) {
-        bool crossed = false;
-#if MARCH_REPEATS
-        do {
-#else
-        while (steps < plan_max_steps) {
-#endif
-#ifdef RAY_RECHARTS
-            next = ray_recharted(s, next);
-#endif
-            s = next;
-#ifdef STEP_ADAPTS
-            next = adapted_step(orbit, s, trial, h);
-            next = completed(orbit, s, h, next);
-#else
-            h = step_size(orbit, s);
-            next = march_step(orbit, s, h);
-#endif
-            ++steps;
-            fate = ray_fate(orbit, next);
+    m.steps = 0;
+    m.fate = UNRESOLVED;
+    m.crossed = false;
+    march_on(orbit, ORDERS > 0, m);
+    float end = march_end(orbit, m);
 #if ORDERS > 0
-            crossed = is_below(next) != is_below(s) && leg < ORDERS;
+    // From crossing to crossing. Most rays cross once: the step to a crossing is as dear as three of the march, and a loop that began with the
+    // march would run it once more for each ray. A ray that is done has `crossed` false, so that further rounds leave it as it is.
+    int found = 0;
+    do {
+        if (m.crossed) find_crossing(orbit, m.s, m.next, m.h, end, hits);
+        ++found;
+        m.crossed = m.crossed && m.fate == UNRESOLVED && m.steps < plan_max_steps;
+        if (m.crossed) march_on(orbit, found < ORDERS, m);
+        end = march_end(orbit, m);
+    } while (m.crossed);
 #endif
-#if MARCH_REPEATS
-        } while (!crossed && fate == UNRESOLVED && steps < plan_max_steps);
-#else
-            if (crossed || fate != UNRESOLVED) break;
-        }
-#endif
-        end = fate == ESCAPED ? ray_end(orbit, s, next, h) : 2.0;  // or beyond the step, whose very end may be a crossing
-#if ORDERS > 0
-        if (crossed) find_crossing(orbit, s, next, h, end, hits);
-#endif
-        if (fate != UNRESOLVED || steps >= plan_max_steps) break;
-    }
 #if POST_VIEW_CONSERVATION && defined(RAY_DRIFT)
-    march_drift = RAY_DRIFT(orbit, next);
+    march_drift = RAY_DRIFT(orbit, m.next);
 #endif
-    hits.steps = steps;
-    hits.fate = fate;
-    if (fate == ESCAPED) ray_finish(orbit, march_step(orbit, s, h * end), hits);
+    hits.steps = m.steps;
+    hits.fate = m.fate;
+    if (m.fate == ESCAPED) ray_finish(orbit, march_step(orbit, m.s, m.h * end), hits);
     return hits;
 }
