@@ -157,7 +157,7 @@ def _rows(
             report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True, progressive=motion == "moving")
             if counted >= 0:
                 processor[name].append(1e3 * (clock.process_time() - start))
-                own_rays[name] = renderer.hit_map.own_share()
+                own_rays[name] = float(renderer.hit_map.own_rays().mean())
                 wall[name].append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
     found = []
     for name, scene in compared.items():

@@ -1,20 +1,17 @@
 #version 330 core
-// Cells → depth: what a pixel of a refined map will need, as shade_classes.frag says it of an exact one. A cell's pixels share one class,
-// which may be wider than a pixel needs; a pixel with a ray of its own may need anything:
+// Classes of the cells → depth: what a pixel of a refined map will need. A cell's pixels share one class, which may be wider than a pixel needs.
 //
-//   0.1  a ray of its own: trace.frag is still to draw it, and the depth test keeps it from all others
-//   0.2  captured, may cross the disk     0.6  escaped, no disk
-//   0.4  escaped, may cross the disk      0.8  captured, no disk
+//   0.05  a ray of its own: trace.frag is still to draw it, and the depth test keeps it from all others; it may need anything
+//   0.15, 0.25, 0.5  as in shade_classes.frag
+//   0.75             as 0.25, and flat: directions may be interpolated linearly, and nothing else is read (HIT_MAP_REFINED = 2)
 #defines
 #blocks
-#include "common/constants.glsl"
-#include "common/hit_cells.glsl"
 
-uniform usampler2D cells;
+uniform sampler2D cell_classes; // eight bits, the nearest: software renderers fetch that in two thirds of the time of texelFetch
+uniform vec2 pixels_to_cells;   // 1/(REFINE_STEP·cells)
+uniform float all_traced;       // 1 where every pixel now has a ray of its own, whatever its cell is like; else 0
 
 void main() {
-    uint cell = texelFetch(cells, ivec2(gl_FragCoord.xy) / REFINE_STEP, 0).r;
-    bool disk = cell_sees_disk(cell);
-    float shared_class = cell_fate(cell) == ESCAPED ? (disk ? 0.4 : 0.6) : (disk ? 0.2 : 0.8);
-    gl_FragDepth = cell_has_own_rays(cell) ? 0.1 : shared_class;
+    float found = textureLod(cell_classes, gl_FragCoord.xy * pixels_to_cells, 0.0).r;
+    gl_FragDepth = all_traced > 0.0 ? min(found, 1.0 - found) : found;
 }

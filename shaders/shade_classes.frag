@@ -2,10 +2,9 @@
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
 // do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
 //
-//   0.2  captured or unresolved, may cross the disk   0.6  escaped, no disk
-//   0.4  escaped, may cross the disk                  0.8  captured or unresolved, no disk
+//   0.15  may cross the disk, and may be of the sky     0.25  of the sky, no disk     0.5  neither
 //
-// So disk is below 0.5 and sky below 0.7: one draw each. The few of 0.2 have no sky, and are black in it.
+// So disk is below 0.2 and sky below 0.3: one draw each. The few that cross the disk and are not of the sky are black in it.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -20,5 +19,5 @@ void main() {
     for (int n = 0; n < ORDERS; ++n)
         disk = may_be_covered(crossing_of(hits.crossing[n])) || disk;
 #endif
-    gl_FragDepth = hits.fate == ESCAPED ? (disk ? 0.4 : 0.6) : (disk ? 0.2 : 0.8);
+    gl_FragDepth = disk ? 0.15 : hits.fate == ESCAPED ? 0.25 : 0.5;
 }

@@ -109,7 +109,7 @@ def drawn(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int]) 
     renderer.hit_map.forget()
     if renderer.render(scene, time, size, progressive=True).sharp:
         raise ValueError("every pixel has a ray of its own: there is no refinement to measure")
-    refined, refined_hits, own_rays = renderer.read_rgb8(), renderer.hits(), renderer.hit_map.own_share()
+    refined, refined_hits, own_rays = renderer.read_rgb8(), renderer.hits(), float(renderer.hit_map.own_rays().mean())
     renderer.hit_map.forget()
     renderer.render(scene, time, size)
     return Pair(refined, renderer.read_rgb8(), refined_hits, renderer.hits(), own_rays)

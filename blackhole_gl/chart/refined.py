@@ -108,7 +108,4 @@ def _counted(found: np.ndarray, true: np.ndarray, scene: Scene) -> np.ndarray:
 
 def _steps_a_pixel(renderer: Renderer, steps: np.ndarray) -> float:
     """Mean over the pixels of the steps taken for them; `steps` (height, width) are interpolated where a pixel has no ray of its own."""
-    texture = renderer.hit_map.samplers()["cells"]  # shaders/common/hit_cells.glsl
-    cells = np.frombuffer(texture.read(alignment=1), texture.dtype).reshape(texture.height, texture.width)
-    own = np.kron(cells & 3 == 0, np.ones((REFINE_STEP, REFINE_STEP), bool))
-    return float(np.mean(steps * own) + np.mean(steps) / REFINE_STEP**2)
+    return float(np.mean(steps * renderer.hit_map.own_rays()) + np.mean(steps) / REFINE_STEP**2)

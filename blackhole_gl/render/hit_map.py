@@ -92,7 +92,7 @@ class HitMap:
         if not refined:
             self._trace_rows(triangle, 0, size[1])
         elif self.sharpened:
-            self._sharpen(triangle)
+            self._sharpen(triangle, scene, ray_plan)
         else:
             self._trace_refined(triangle, scene, ray_plan, size)
         self._key, self._traced = key, (scene, ray_plan)
@@ -104,9 +104,10 @@ class HitMap:
         """Whether every pixel has a ray of its own."""
         return self._refined_for is None
 
-    def own_share(self) -> float:
-        """Share of the pixels that have a ray of their own; 1 for a sharp map. Waits for the GPU."""
-        return 1.0 if self.is_sharp else self._grid.own_share()
+    def own_rays(self) -> np.ndarray:
+        """Which pixels have a ray of their own, bool (height, width): all of a sharp map. Waits for the GPU."""
+        width, height = self.textures[0].size
+        return np.ones((height, width), bool) if self.is_sharp else self._grid.own_rays()
 
     @property
     def classes(self) -> moderngl.Texture | None:
@@ -121,6 +122,10 @@ class HitMap:
     def switches(self) -> dict[str, int]:
         """The switches that shaders which read the map are to be composed with."""
         return {"HIT_MAP_REFINED": int(not self.is_sharp)}
+
+    def switches_where_flat(self) -> dict[str, int] | None:
+        """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
+        return None if self.is_sharp else {"HIT_MAP_REFINED": 2}
 
     def _trace_rows(self, triangle: moderngl.VertexArray, first: int, end: int) -> None:
         """Exact rays for the rows `first` ≤ y < `end`; the map is sharp after the last."""
@@ -138,12 +143,12 @@ class HitMap:
         self._grid.trace_own_rays(triangle, self.textures)
         self._refined_for, self._sharp_rows = _refined_for(scene, ray_plan, size), 0
 
-    def _sharpen(self, triangle: moderngl.VertexArray) -> None:
+    def _sharpen(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan) -> None:
         height = self._target.size[1]
         rows = -(-height // (_SLICES * REFINE_STEP)) * REFINE_STEP
         first, end = self._sharp_rows, min(self._sharp_rows + rows, height)
         self._sharp_rows = end
-        self._grid.give_own_rays(first, end)
+        self._grid.give_own_rays(scene, ray_plan, first, end)
         self._trace_rows(triangle, first, end)
 
     def forget(self) -> None:

@@ -12,12 +12,17 @@ from .hit_map import HitMap
 from .programs import Programs, bind_samplers, draw
 
 
+# Below these depths lie the classes of pixels that may cross the disk, and that may be of the sky (shaders/shade_classes.frag); beyond the
+# last those of flat cells (refine_classes.frag).
+_DISK, _SKY, _FLAT_SKY = 0.2, 0.3, 0.6
+
+
 class ShadePass:
     """Draws shaders/shade_*.frag and owns the tables they read.
 
     First every pixel is sorted by what it needs, into a depth buffer; then the depth test lets the disk's and the sky's
     shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are; a refined hit map
-    brings its own.
+    brings its own (shaders/refine_classes.frag).
 
     Raises:
         FileNotFoundError: a table is missing from assets/.
@@ -46,8 +51,7 @@ class ShadePass:
             self._frame.use()
             ctx.enable(moderngl.BLEND)
             ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
-            triangle = self._prepared("shade_disk.frag", scene, ray_plan, hit_map)
-            self._draw_classes(triangle, 0.5)
+            self._draw_classes(self._prepared("shade_disk.frag", scene, ray_plan, hit_map, hit_map.switches()), ">", _DISK)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.depth_func = "<"
 
@@ -56,23 +60,26 @@ class ShadePass:
         if not scene.sky.enabled:
             self._clear(self._frame)
             return
-        triangle = self._prepared("shade_sky.frag", scene, ray_plan, hit_map)
+        triangle = self._programs.get("shade_sky.frag", scene, ray_plan, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
         key = (id(triangle), self._classes_key, scene.camera.azimuth_deg, scene.sky, parameters)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
-            self._draw_sky(triangle, self._frame)
+            self._draw_sky(self._frame, scene, ray_plan, hit_map)
             return
         if not self._sky_kept:
             if self._sky is None:
                 self._sky = self._ctx.framebuffer([self._ctx.texture(target.size, 4, dtype="f2")], self._depth)
-            self._draw_sky(triangle, self._sky)
+            self._draw_sky(self._sky, scene, ray_plan, hit_map)
             self._sky_kept = True
         self._ctx.copy_framebuffer(target, self._sky)
 
-    def _draw_sky(self, triangle: moderngl.VertexArray, frame: moderngl.Framebuffer) -> None:
+    def _draw_sky(self, frame: moderngl.Framebuffer, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
         self._clear(frame)
-        self._draw_classes(triangle, 0.7)
+        self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, hit_map.switches()), ">", _SKY)
+        where_flat = hit_map.switches_where_flat()
+        if where_flat is not None:
+            self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, where_flat), "<", _FLAT_SKY)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -87,14 +94,14 @@ class ShadePass:
         self._tables, self._profile_key = {}, None
         self._release_classes()
 
-    def _prepared(self, path: str, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.VertexArray:
-        triangle = self._programs.get(path, scene, ray_plan, hit_map.switches())
+    def _prepared(self, path: str, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, switches: dict[str, int]) -> moderngl.VertexArray:
+        triangle = self._programs.get(path, scene, ray_plan, switches)
         bind_samplers(triangle.program, {**hit_map.samplers(), **self._tables})
         return triangle
 
-    def _draw_classes(self, triangle: moderngl.VertexArray, depth: float) -> None:
-        """Draws where the pixel's class, as written by shade_classes.frag, is below `depth`."""
-        self._ctx.depth_func = ">"
+    def _draw_classes(self, triangle: moderngl.VertexArray, depth_func: str, depth: float) -> None:
+        """Draws where the pixel's class compares with `depth`: ``>`` where it is below, ``<`` where it is beyond."""
+        self._ctx.depth_func = depth_func
         triangle.program["triangle_depth"].value = 2.0 * depth - 1.0
         draw(triangle)
 
@@ -107,7 +114,7 @@ class ShadePass:
             self._release_classes()
             self._depth = self._ctx.depth_texture(size)
             self._classes = self._ctx.framebuffer([], self._depth)
-        triangle = self._prepared("shade_classes.frag", scene, ray_plan, hit_map)
+        triangle = self._prepared("shade_classes.frag", scene, ray_plan, hit_map, hit_map.switches())
         self._classes.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always

@@ -1,10 +1,17 @@
 // The coarse grid of a refined hit map: one exact ray at every REFINE_STEP-th pixel, and 16 bits for each cell between four of them.
 //
+// Nodes, as refine_nodes.frag leaves them:
+//   coarse0  escape as a point of common/escape_chart.glsl, λ, steps (−1 − steps unless escaped)
+//   coarse1  crossings 0 and 1
+//   bend0    second differences of the point, along x and along y
+//   bend1, bend2   those of crossing 0, of crossing 1
+//
+// Cells, as refine_cells.frag judges them:
 //   bits 0–1            fate of all its pixels; UNRESOLVED: nothing can be interpolated here, every pixel has a ray of its own
-//   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2
+//   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2 (which is never interpolated: it is seen in the thinnest of rings)
 //   bit 8               some crossing may lie on the disk
 //
-// The grid begins one node outside the picture: texel (i, j) of the coarse textures is pixel REFINE_STEP·(i − 1, j − 1), and texel (i, j)
+// The grid begins one node outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − 1, j − 1), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
 
 const uint CROSSING_NONE = 0u;

@@ -1,8 +1,12 @@
 // Reads hits from the hit map. The other half is hit_map_write.glsl.
 // The map is in the frame of the camera's meridian, so that it serves a camera at any azimuth; what is fetched is in the world.
-// HIT_MAP_REFINED: pixels of cells that can be trusted have no ray of their own; their hits are interpolated (hit_cells.glsl).
+// HIT_MAP_REFINED: 1, pixels of cells that can be trusted have no ray of their own, and their hits are interpolated (hit_cells.glsl); 2, the
+// same for directions in flat cells and nothing else (refine_classes.frag): linear interpolation does, and no own rays are looked for.
 #include "common/rotation.glsl"
 #include "common/hit_cells.glsl"
+#if HIT_MAP_REFINED
+#include "common/escape_chart.glsl"
+#endif
 
 uniform sampler2D hits0;
 #if ORDERS > 0
@@ -13,12 +17,14 @@ uniform sampler2D hits2;
 #endif
 #if HIT_MAP_REFINED
 uniform usampler2D cells;
-uniform sampler2D coarse0; // filtered linearly
+uniform sampler2D coarse0; // these are filtered linearly
+uniform sampler2D bend0;
 #if ORDERS > 0
 uniform sampler2D coarse1;
+uniform sampler2D bend1;
 #endif
 #if ORDERS > 1
-uniform sampler2D coarse2;
+uniform sampler2D bend2;
 #endif
 
 const vec2 UNSEEN_CROSSING = vec2(1e6, 0.0); // r_s; stands for one that is off the disk: so far out that no pixel beside it shows any
@@ -48,58 +54,79 @@ vec2 place_in_grid(ivec2 pixel) {
     return (vec2(pixel) / float(REFINE_STEP) + 1.5) / vec2(textureSize(coarse0, 0));
 }
 
-// Fate and direction of a pixel in the middle of a cell that is trusted.
-vec4 interpolated_escape(uint cell, vec2 place) {
-    vec4 t0 = textureLod(coarse0, place, 0.0);
-    uint fate = cell & 3u;
-    float steps = floor(0.25 * t0.w);
-    return vec4(fate == uint(ESCAPED) ? normalize(t0.xyz) : vec3(0.0), 4.0 * steps + float(fate));
+// Between nodes v is v_linear − s(1 − s)/2 · v_xx − t(1 − t)/2 · v_yy, the second differences v_xx and v_yy (`bend`) linear as well:
+// it is continuous, and so are its slopes but for third differences.
+vec2 interpolated(vec2 linear, sampler2D bend, vec2 place, ivec2 pixel) {
+#if HIT_MAP_REFINED == 1
+    vec4 bends = textureLod(bend, place, 0.0);
+    vec2 s = vec2(pixel & (REFINE_STEP - 1)) * (1.0 / float(REFINE_STEP));
+    vec2 weight = 0.5 * s * (s - 1.0);
+    return linear + weight.x * bends.xy + weight.y * bends.zw;
+#else
+    return linear;
+#endif
+}
+
+// Fate and direction of a pixel in a cell that is trusted, as hits0 would hold them.
+vec4 interpolated_escape(ivec2 pixel) {
+    vec2 place = place_in_grid(pixel);
+    vec4 node = textureLod(coarse0, place, 0.0);
+    if (node.w < -0.5) return vec4(vec3(0.0), 4.0 * floor(-1.0 - node.w) + float(CAPTURED));
+    return vec4(chart_direction(interpolated(node.xy, bend0, place, pixel)), 4.0 * floor(node.w) + float(ESCAPED));
 }
 
 vec2 interpolated_crossing(uint cell, int n, vec2 point) {
     uint kind = cell_crossing(cell, n);
     return kind == CROSSING_SEEN ? point : kind == CROSSING_UNSEEN ? UNSEEN_CROSSING : vec2(0.0);
 }
+
+Hits interpolated_hits(uint cell, ivec2 pixel) {
+    vec4 t1 = vec4(0.0), t2 = vec4(0.0);
+    vec2 place = place_in_grid(pixel);
+#if ORDERS > 0
+    vec4 points = textureLod(coarse1, place, 0.0);
+    t1 = vec4(interpolated_crossing(cell, 0, interpolated(points.xy, bend1, place, pixel)), textureLod(coarse0, place, 0.0).z, 0.0);
+#endif
+#if ORDERS > 1
+    t2 = vec4(interpolated_crossing(cell, 1, interpolated(points.zw, bend2, place, pixel)), interpolated_crossing(cell, 2, vec2(0.0)));
+#endif
+    return unpacked_hits(interpolated_escape(pixel), t1, t2);
+}
 #endif
 
+#if HIT_MAP_REFINED < 2
 // As traced, in the frame of the camera's meridian.
 Hits stored_hits(ivec2 pixel) {
     ivec2 place = place_in_map(pixel);
-    vec4 t0 = texelFetch(hits0, place, 0), t1 = vec4(0.0), t2 = vec4(0.0);
+    vec4 t1 = vec4(0.0), t2 = vec4(0.0);
+#if HIT_MAP_REFINED
+    uint cell = texelFetch(cells, place / REFINE_STEP, 0).r;
+    if (!cell_has_own_rays(cell)) return interpolated_hits(cell, place);
+#endif
 #if ORDERS > 0
     t1 = texelFetch(hits1, place, 0);
 #endif
 #if ORDERS > 1
     t2 = texelFetch(hits2, place, 0);
 #endif
-#if HIT_MAP_REFINED
-    uint cell = texelFetch(cells, place / REFINE_STEP, 0).r;
-    bool own = cell_has_own_rays(cell);
-    vec2 between = place_in_grid(place);
-    t0 = own ? t0 : interpolated_escape(cell, between);
-#if ORDERS > 0
-    vec4 u1 = textureLod(coarse1, between, 0.0);
-    t1 = own ? t1 : vec4(interpolated_crossing(cell, 0, u1.xy), u1.z, 0.0);
-#endif
-#if ORDERS > 1
-    vec4 u2 = textureLod(coarse2, between, 0.0);
-    t2 = own ? t2 : vec4(interpolated_crossing(cell, 1, u2.xy), interpolated_crossing(cell, 2, u2.zw));
-#endif
-#endif
-    return unpacked_hits(t0, t1, t2);
+    return unpacked_hits(texelFetch(hits0, place, 0), t1, t2);
 }
 
 Hits fetch_hits(ivec2 pixel) {
     return in_world(stored_hits(pixel));
 }
+#endif
 
 // Fate and direction only.
 Hits fetch_escape(ivec2 pixel) {
     ivec2 place = place_in_map(pixel);
+#if HIT_MAP_REFINED == 0
     vec4 t0 = texelFetch(hits0, place, 0);
-#if HIT_MAP_REFINED
-    uint cell = texelFetch(cells, place / REFINE_STEP, 0).r;
-    t0 = cell_has_own_rays(cell) ? t0 : interpolated_escape(cell, place_in_grid(place));
+#elif HIT_MAP_REFINED == 1
+    bool own = cell_has_own_rays(texelFetch(cells, place / REFINE_STEP, 0).r);
+    vec4 t0 = own ? texelFetch(hits0, place, 0) : interpolated_escape(place);
+#else
+    vec4 t0 = interpolated_escape(place);
 #endif
     return in_world(unpacked_hits(t0, vec4(0.0), vec4(0.0)));
 }
