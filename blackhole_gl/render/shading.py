@@ -5,7 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .. import blackbody, disk_profile, observer, plan, star_cells
+from .. import disk_profile, observer, plan, star_cells
 from ..resources import assets_dir
 from ..scene import Scene
 from .hit_map import HitMap
@@ -30,7 +30,7 @@ class ShadePass:
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
-        self._tables = {"blackbody_table": _blackbody_table(ctx), "galaxy_band": _galaxy_band(ctx), "star_cells": _star_cells(ctx)}
+        self._tables = {"galaxy_band": _galaxy_band(ctx), "star_cells": _star_cells(ctx)}
         self._profile_key: tuple | None = None
         self._depth: moderngl.Texture | None = None
         self._classes: moderngl.Framebuffer | None = None
@@ -157,12 +157,6 @@ def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
     texture = ctx.texture((len(values), 1), values.shape[1], np.ascontiguousarray(values, np.float32).tobytes(), dtype="f4", alignment=4)
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def _blackbody_table(ctx: moderngl.Context) -> moderngl.Texture:
-    texture = _row(ctx, blackbody.table())
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
 
 

@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "blackhole_gl"
 # Lowest first. A part imports from rows below its own and from itself, never sideways or upwards.
 LAYERS = (
     {"fields", "relativity", "resources", "shear", "star_cells"},
-    {"blackbody", "catalogue", "orbit_table"},
+    {"catalogue", "orbit_table"},
     {"scene"},
     {"observer", "disk_profile", "output"},
     {"choice", "glsl", "presets"},

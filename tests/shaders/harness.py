@@ -12,7 +12,7 @@ from typing import Any, Mapping, Sequence
 import moderngl
 import numpy as np
 
-from blackhole_gl import blackbody, star_cells
+from blackhole_gl import star_cells
 from blackhole_gl.glsl.compose import compose
 from blackhole_gl.resources import assets_dir, shaders_dir
 
@@ -99,7 +99,6 @@ class Piece:
         self.textures: list[moderngl.Texture] = []
         self.set(**{name: value for name, (_, value) in UNIFORMS.items()})
         self.set(**uniforms)
-        self.table("blackbody_table", blackbody.table()[None], nearest=True)
         self.table("galaxy_band", (np.load(assets_dir() / "galaxy_band.npz")["root"] / 255.0), mipmap=True)
         self.table("star_cells", star_cells.table(), nearest=True)
         self.table("temperature_profile", np.ones((1, 64, 1)))

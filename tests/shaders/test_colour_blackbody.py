@@ -1,4 +1,4 @@
-"""The black-body table against numbers that do not come from the script that made it."""
+"""The colours of black bodies against numbers that do not come from the script that fitted them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def planck_chromaticity(kelvin: float) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def colours(ctx, tmp_path_factory):
-    """Temperatures (K) → linear Rec. 709 by the shader's own look-up."""
+    """Temperatures (K) → linear Rec. 709 by the shader's own fit."""
     path = tmp_path_factory.mktemp("colour") / "colour.frag"
     path.write_text(
         '#version 330 core\n#include "common/colour.glsl"\nuniform sampler2D kelvins;\nout vec4 o;\n'
@@ -58,7 +58,7 @@ def chromaticity(rgb: np.ndarray) -> np.ndarray:
 
 
 def test_published_chromaticities(colours) -> None:
-    """CIE illuminant A (Planck at 2,856 K), and points of the Planckian locus as tabled by the CIE. 5e-4: tables give four digits, and the look-up interpolates."""
+    """CIE illuminant A (Planck at 2,856 K), and points of the Planckian locus as tabled by the CIE. 5e-4: tables give four digits, and the fit is good to 2e-4."""
     published = {2856.0: (0.4476, 0.4074), 4000.0: (0.3805, 0.3768), 6500.0: (0.3135, 0.3237), 10000.0: (0.2807, 0.2884)}
     np.testing.assert_allclose(chromaticity(colours(list(published))), list(published.values()), atol=5e-4)
 
@@ -72,11 +72,11 @@ def test_against_planck_and_a_fitted_observer(colours) -> None:
 
 def test_luminance_is_one_and_nothing_is_negative(colours) -> None:
     found = colours(np.geomspace(100.0, 1e6, 500))
-    np.testing.assert_allclose(found @ TO_XYZ[1], 1.0, atol=2e-4)  # the matrix above has seven digits, the look-up mixes two entries
+    np.testing.assert_allclose(found @ TO_XYZ[1], 1.0, atol=2e-4)  # the shader's numbers have six digits
     assert found.min() >= 0.0
 
 
-def test_outside_the_table_its_ends_answer(colours) -> None:
+def test_outside_the_fit_its_ends_answer(colours) -> None:
     found = colours([0.0, -5.0, 500.0, 1000.0, 40_000.0, 1e9])
     np.testing.assert_array_equal(found[:3], found[[3, 3, 3]])
     np.testing.assert_array_equal(found[4], found[5])

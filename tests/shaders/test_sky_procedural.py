@@ -106,7 +106,7 @@ def test_wide_footprints_see_the_mean_of_the_stars(sky) -> None:
 
 
 def test_blue_shift_brightens_as_the_fourth_power(sky) -> None:
-    """Luminance of colour-table entries is 1 at all temperatures, so the ratio is exact up to the table's interpolation: 1e-3."""
+    """Luminance of black bodies is 1 at all temperatures, so the ratio is exact up to rounding: 1e-3."""
     weights = np.array([0.2126, 0.7152, 0.0722])
     plain, shifted = (float((sky(VIEWS[0], energy=e) @ weights).sum()) for e in (1.0, 1.2))
     assert shifted / plain == pytest.approx(1.2**4, rel=1e-3)
