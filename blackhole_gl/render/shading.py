@@ -164,6 +164,7 @@ def _star_cells(ctx: moderngl.Context) -> moderngl.Texture:
     cells = star_cells.table()
     texture = ctx.texture((cells.shape[1], cells.shape[0]), 4, cells.tobytes(), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    texture.repeat_x = texture.repeat_y = False
     return texture
 
 

@@ -37,13 +37,14 @@ help = "Shift the sky's colour and brightness (as the fourth power) by the obser
 // A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
 // light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
 
-uniform sampler2D star_cells;  // blackhole_gl/star_cells.py
+uniform sampler2D star_cells;  // blackhole_gl/star_cells.py; nearest, as texelFetch takes half as long again on llvmpipe
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
 
 const vec3 GALAXY_CENTRE = vec3(-0.947063, 0.290589, 0.136495);
 const vec3 GALAXY_POLE = vec3(0.284464, 0.562425, 0.776375);
 const float GALAXY_TEXEL = 6.2831853 / 1024.0;
 const float STAR_MARGIN = 0.16; // of a cell
+const vec2 STAR_TEXEL = 1.0 / vec2(360.0, 117.0); // of star_cells
 const float HAZE_KELVIN = 6200.0;
 const float STAR_UNIT = 4.0e-6; // radiance × sr of a star of flux 1
 
@@ -87,7 +88,7 @@ float star_richness(vec3 d) {
 
 // A place on the cube: face 0…5, place in −1…1 on it, spread so that cells have nearly equal solid angles.
 struct SkyPlace {
-    int face;
+    float face;
     vec2 place;
     float cell_width; // rad × cells across a face
 };
@@ -108,7 +109,7 @@ SkyPlace sky_place(vec3 d) {
     vec3 turned = x_face ? d : (y_face ? d.yzx : d.zxy);
     vec2 flat_place = turned.yz / abs(turned.x);
     vec2 place = sign(flat_place) * (sqrt(1.0 + 3.0 * abs(flat_place)) - 1.0);
-    int face = (x_face ? 0 : (y_face ? 2 : 4)) + (turned.x < 0.0 ? 1 : 0);
+    float face = (x_face ? 0.0 : (y_face ? 2.0 : 4.0)) + (turned.x < 0.0 ? 1.0 : 0.0);
     return SkyPlace(face, place, cube_cell_width(place));
 }
 
@@ -128,7 +129,7 @@ void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float sprea
     haze *= haze * (3.0 - 2.0 * haze);
 
     vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5);
-    vec4 star = texelFetch(star_cells, ivec2(cell) + ivec2(at.face * int(cells), row), 0);
+    vec4 star = textureLod(star_cells, (cell + vec2(at.face * cells, float(row))) * STAR_TEXEL, 0.0);
     vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
     float fall = max(1.0 - dot(d, d), 0.0); // ∫ fall³ over the disc of radius 2 is π
     float flux = (star.w - haze * star.w) * fall * fall * fall;
