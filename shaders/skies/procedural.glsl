@@ -52,17 +52,19 @@ const float STAR_UNIT = 4.0e-6; // radiance × sr of a star of flux 1
 struct SkySpot {
     vec3 centre;
     vec3 across, along;
-    float area;       // √det C, sr
-    float reach;      // longest half-axis, rad
+    float kernel;     // 1/(π √det C), per sr
+    float reach2;     // square of the longest half-axis, rad²
 };
 
 SkySpot sky_spot(vec3 centre, vec3 right, vec3 up) {
     SkySpot spot;
     spot.centre = centre;
-    vec3 along = right - centre * dot(right, centre);
-    vec3 spare = cross(centre, abs(centre.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0));
-    vec3 e1 = normalize(dot(along, along) > 1e-18 ? along : spare);
-    vec3 e2 = cross(centre, e1);
+    // Two unit vectors at right angles to it and to each other, without a root (Duff et al. 2017).
+    float side = centre.z < 0.0 ? -1.0 : 1.0;
+    float k = -1.0 / (side + centre.z);
+    float m = centre.x * centre.y * k;
+    vec3 e1 = vec3(1.0 + side * centre.x * centre.x * k, side * m, -side * centre.x);
+    vec3 e2 = vec3(m, side + centre.y * centre.y * k, -centre.y);
     vec2 a = vec2(dot(right, e1), dot(right, e2));
     vec2 b = vec2(dot(up, e1), dot(up, e2));
     float least = max(sky_procedural_star_size * sky_procedural_star_size, 1e-13); // float32 directions resolve no less
@@ -71,12 +73,13 @@ SkySpot sky_spot(vec3 centre, vec3 right, vec3 up) {
     float cross_ab = a.x * b.y - a.y * b.x;
     float det = cross_ab * cross_ab + least * (dot(a, a) + dot(b, b)) + least * least;
     // Half of a root of C⁻¹: where |(across, along)·d| is 1 the star's kernel ends.
-    float root = inversesqrt(c.x);
-    spot.across = (0.5 * root) * e1;
-    spot.along = (0.5 * root * inversesqrt(det)) * (c.x * e2 - c.y * e1);
-    spot.area = sqrt(det);
+    float root_c = sqrt(c.x), root_det = sqrt(det);
+    float shared_inverse = 1.0 / (root_c * root_det);
+    spot.across = (0.5 * shared_inverse * root_det) * e1;
+    spot.along = (0.5 * shared_inverse) * (c.x * e2 - c.y * e1);
+    spot.kernel = shared_inverse * root_c * (1.0 / 3.1415927);
     float half_trace = 0.5 * (c.x + c.z);
-    spot.reach = sqrt(half_trace + sqrt(max(half_trace * half_trace - det, 0.0)));
+    spot.reach2 = half_trace + sqrt(max(half_trace * half_trace - det, 0.0));
     return spot;
 }
 
@@ -90,27 +93,23 @@ float star_richness(vec3 d) {
 struct SkyPlace {
     float face;
     vec2 place;
-    float cell_width; // rad × cells across a face
+    float narrowness; // inverse square of the angular distance between the nearer two opposite sides of a cell that is the whole face, rad⁻²
 };
-
-// Angular distance between the nearer two opposite sides of a cell at `place`, times the number of cells across a face.
-float cube_cell_width(vec2 place) {
-    vec2 p = abs(place);
-    vec2 squares = p * (p + 2.0) * 0.33333333;
-    squares *= squares;
-    vec2 width = (1.0 + p) * inversesqrt(1.0 + squares);
-    return 4.0 / 3.0 * min(width.x, width.y) * inversesqrt(1.0 + squares.x + squares.y);
-}
 
 SkyPlace sky_place(vec3 d) {
     vec3 a = abs(d);
     bool x_face = a.x >= a.y && a.x >= a.z;
     bool y_face = !x_face && a.y >= a.z;
     vec3 turned = x_face ? d : (y_face ? d.yzx : d.zxy);
-    vec2 flat_place = turned.yz / abs(turned.x);
-    vec2 place = sign(flat_place) * (sqrt(1.0 + 3.0 * abs(flat_place)) - 1.0);
+    vec2 flat_place = turned.yz * (1.0 / abs(turned.x));
+    vec2 stretch = 1.0 + 3.0 * abs(flat_place);
+    vec2 place = sign(flat_place) * (sqrt(stretch) - 1.0);
     float face = (x_face ? 0.0 : (y_face ? 2.0 : 4.0)) + (turned.x < 0.0 ? 1.0 : 0.0);
-    return SkyPlace(face, place, cube_cell_width(place));
+    // Sides are 4/3 √stretch/√((1 + flat²)(1 + flat.x² + flat.y²)) apart.
+    vec2 squares = flat_place * flat_place;
+    vec2 apart = (1.0 + squares) * stretch.yx;
+    float narrowness = 0.5625 * (1.0 + squares.x + squares.y) * max(apart.x, apart.y) / (stretch.x * stretch.y);
+    return SkyPlace(face, place, narrowness);
 }
 
 // Light of stars, kept as numbers and their temperature: colour is looked up once, at the end.
@@ -152,9 +151,10 @@ float turns(float x, float y) {
 vec3 galaxy_radiance(SkySpot spot) {
     float height = dot(spot.centre, GALAXY_POLE);
     float longitude = turns(dot(spot.centre, GALAXY_CENTRE), dot(spot.centre, cross(GALAXY_POLE, GALAXY_CENTRE)));
-    float level = log2(max(spot.reach / GALAXY_TEXEL, 1.0));
+    float reach = sqrt(spot.reach2);
+    float level = log2(max(reach / GALAXY_TEXEL, 1.0));
     // A very wide footprint holds the sky beside the band too, which is as large as the band's map and dark.
-    float whole_sky = smoothstep(0.1, 0.6, spot.reach);
+    float whole_sky = smoothstep(0.1, 0.6, reach);
     vec2 place = vec2(longitude + 0.5, 0.5 + height * (1.0 - whole_sky));
     vec3 root = textureLod(galaxy_band, place, level).rgb;
     return root * root * (1.0 - 0.5 * whole_sky);
@@ -166,7 +166,7 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
 #endif
     SkySpot spot = sky_spot(direction, right, up);
     SkyPlace at = sky_place(direction);
-    float spread = 2.0 * spot.reach / (STAR_MARGIN * at.cell_width);
+    float spread = (2.0 / STAR_MARGIN) * sqrt(spot.reach2 * at.narrowness);
     StarLight stars = StarLight(0.0, 0.0, 0.0);
     add_star_grid(stars, spot, at, spread, 7.0, 0, 1.0, 20.0);
     add_star_grid(stars, spot, at, spread, 16.0, 7, 0.2536, 1.0);
@@ -174,9 +174,8 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
     add_star_grid(stars, spot, at, spread, 60.0, 57, 0.0309, 0.0783);
     // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
     float haze = stars.haze * star_richness(direction) * (0.5625 / 1.4831);
-    float kernel = 1.0 / (3.1415927 * spot.area);
-    float power = stars.flux * kernel + haze;
-    vec3 colour = blackbody_colour((stars.heat * kernel + haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
+    float power = stars.flux * spot.kernel + haze;
+    vec3 colour = blackbody_colour((stars.heat * spot.kernel + haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
     vec3 galaxy = galaxy_radiance(spot) * (0.06 * sky_procedural_galaxy_brightness);
     float boost = energy * energy;
     return (colour * (power * STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
