@@ -165,6 +165,7 @@ class Picture:
         else:
             self._rehearsed += 1
             self._resolution = Resolution()  # what is known is of another scene
+            self._learn(report)
             self.preparation.over()
         return True
 

@@ -1,15 +1,19 @@
 """How coarse a moving picture is drawn so that the window keeps its frame rate. Plain arithmetic: no GL, no clock.
 
-A picture of `scale` times the full width and height costs `scale²` times as much. What the full size would cost is the median of the last few
-frames, so that one in which a driver compiled or allocated changes nothing. The scale that fits glides after it, and is rounded to steps of an
-eighth of an octave: every step allocates the renderer's targets anew, so a step is left only when the glide is clearly beyond it.
+A frame costs ``other + constant + scale² × rate``: what is not the picture's (the panel, the screen), what a picture of any size costs (Python, a dozen
+passes over next to nothing), and what its pixels cost. The constant shows where a movement begins or ends, as the picture at rest and those in motion
+beside it are of one view and of very different size. Within a movement nothing is learnt of it: a view that grows dearer while the window draws it
+coarser looks like a picture that costs the same at any size. The rate is the median of the last few frames, so that one in which a driver compiled or
+allocated changes nothing. The scale that fits glides after it, and is rounded to steps of an eighth of an octave: every step allocates the renderer's
+targets anew, so a step is left only when the glide is clearly beyond it.
 """
 
 from __future__ import annotations
 
 import math
 from collections import deque
-from statistics import median_low
+from dataclasses import dataclass
+from statistics import median, median_low
 
 STEPS_PER_OCTAVE = 8
 """A step changes width and height by 9 %, which is not seen as a hop."""
@@ -20,26 +24,64 @@ COARSEST = {True: 0.25, False: 0.5}
 REST_SHARE = 0.5
 """Of the frame rate aimed at, what a resting camera gives for a sharper picture: it is looked at, and the disk turns slowly."""
 
+PIXELS_SHARE = 1.0 / 6.0
+"""Of all that does not depend on the size, what pixels may always cost. Where that alone fills the frame, fewer pixels cannot bring the frame rate
+back: they would blur the picture for a gain that nobody sees."""
+
 _LEAVE = 0.9  # steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop
+_SETTLING_S = 2.0  # in which a movement finds its step, whatever the noise
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
-_LEAST_SHARE = 0.5  # of a frame that is the picture's: where all else takes more, a coarser picture does not bring the frame rate back
-_REMEMBERED = 9  # frames
+_MOST_OTHER = 0.5  # of a frame that is not the picture's: waiting for the screen cannot be told from work, and would keep pictures coarse
+_REMEMBERED = 9  # frames; those beside a picture at rest that are of the same view
+_CONSTANTS = 31  # estimates of the constant: of three movements and more
+_APART = 2.0  # ratio of pixels from which two frames tell the constant from the rate
+_LEAST_OF_PIXELS = 1.0 / 16.0  # of a picture's cost: a constant found too large must not make pixels free
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """What a picture cost in milliseconds, and its pixels as a share of the full size."""
+
+    pixels: float
+    milliseconds: float
+    at_rest: bool
+
+    def constant(self, other: _Cost) -> float:
+        """What both pictures cost beside their pixels, neither less than nothing nor more than all."""
+        found = (other.milliseconds * self.pixels - self.milliseconds * other.pixels) / (self.pixels - other.pixels)
+        return min(max(found, 0.0), self.milliseconds, other.milliseconds)
+
+    def is_comparable(self, other: _Cost) -> bool:
+        """Whether the two tell their constant."""
+        few, many = sorted((self.pixels, other.pixels))
+        return self.at_rest != other.at_rest and many >= _APART * few
 
 
 class Resolution:
     """Chooses the scale from what frames have cost."""
 
     def __init__(self) -> None:
-        # What frames cost at full size, in milliseconds: those that traced rays and those that kept them.
-        self._cost = {True: deque[float](maxlen=_REMEMBERED), False: deque[float](maxlen=_REMEMBERED)}
+        # Of pictures that traced rays and of those that kept them. Kept rays save more than their trace: the sky behind them is kept too.
+        self._costs = {traced: deque[_Cost](maxlen=_REMEMBERED) for traced in (True, False)}
+        self._constants: deque[float] = deque(maxlen=_CONSTANTS)
         self._other_ms: deque[float] = deque(maxlen=_REMEMBERED)
         self._step = {True: 0, False: 0}  # below full size, the camera moving or not
-        self._glide = 0.0  # likewise, of the movement that goes on
+        self._glide = 0.0  # steps below full size, of the movement that goes on
+        self._lasted = 0.0  # seconds that it has gone on
         self._camera_moved: bool | None = None
 
+    @property
+    def constant_ms(self) -> float:
+        """What a picture of any size that traces rays is taken to cost; 0 until a movement has begun and ended, as one picture at rest may mislead."""
+        return median_low(self._constants) if len(self._constants) > _REMEMBERED else 0.0
+
     def record(self, scale: float, milliseconds: float, *, traced: bool) -> None:
-        """Takes in what a picture at `scale` cost. Kept rays save more than their trace: the sky behind them is kept too."""
-        self._cost[traced].append(milliseconds / scale**2)
+        """Takes in what a picture at `scale` cost."""
+        known, cost = self._costs[traced], _Cost(scale**2, milliseconds, at_rest=not self._camera_moved)
+        found = [cost.constant(other) for other in known if traced and cost.is_comparable(other)]
+        if found:
+            self._constants.append(median(found))
+        known.append(cost)
 
     def record_rest(self, milliseconds: float) -> None:
         """Takes in what a frame cost beside its picture: panel, upscaling, waiting for the screen."""
@@ -57,26 +99,35 @@ class Resolution:
             camera_moving: whether rays have to be traced anew.
             elapsed: seconds since the last picture.
         """
+        goes_on, self._camera_moved = camera_moving == self._camera_moved, camera_moving
         if target_fps <= 0.0:
             return 1.0
+        constant = self.constant_ms if camera_moving else 0.0  # not known of pictures that keep their rays
+        budget = self._budget(target_fps, camera_moving, constant)
         lowest = -STEPS_PER_OCTAVE * math.log2(COARSEST[camera_moving])
-        wanted = min(max(self._wanted(target_fps, camera_moving), 0.0), lowest)
+        wanted = min(max(self._wanted(budget, camera_moving, constant), 0.0), lowest)
         # When a movement begins its cost is known from the last one, so the first picture takes what fits at once.
-        goes_on = camera_moving == self._camera_moved
         self._glide = wanted + (self._glide - wanted) * math.exp(-elapsed / _GLIDE_S) if goes_on else wanted
-        self._camera_moved = camera_moving
-        if abs(self._glide - self._step[camera_moving]) > _LEAVE:
+        self._lasted = self._lasted + elapsed if goes_on else 0.0
+        # The less of a picture's cost is its pixels', the more steps the noise of the whole is worth, and the less a step changes the frame's time.
+        leave = _LEAVE * (1.0 + constant / budget if self._lasted > _SETTLING_S else 1.0)
+        if abs(self._glide - self._step[camera_moving]) > leave:
             self._step[camera_moving] = round(self._glide)
         return 2.0 ** (-self._step[camera_moving] / STEPS_PER_OCTAVE)
 
-    def _wanted(self, target_fps: float, camera_moving: bool) -> float:
-        """Steps below full size that the budget asks for."""
-        known = self._cost[camera_moving]
+    def _budget(self, target_fps: float, camera_moving: bool, constant: float) -> float:
+        """Milliseconds that the pixels of a picture may cost."""
+        frame = 1e3 / (target_fps if camera_moving else REST_SHARE * target_fps)
+        # Waiting for the screen varies from frame to frame and is no work: the least of the last few is what must be.
+        fixed = constant + min(min(self._other_ms, default=0.0), _MOST_OTHER * frame)
+        return max(frame - fixed, PIXELS_SHARE * fixed)
+
+    def _wanted(self, budget: float, camera_moving: bool, constant: float) -> float:
+        """Steps below full size that `budget` [ms] asks for."""
+        known = self._costs[camera_moving]
         if camera_moving and not known:
             return math.inf  # a coarse picture comes sooner
         if not camera_moving and len(known) < 2:
             return 0.0  # the first picture with kept rays also keeps its sky, and says little of what the next will cost
-        frame_ms = 1e3 / (target_fps if camera_moving else REST_SHARE * target_fps)
-        # Waiting for the screen varies from frame to frame and is no work: the least of the last few is what must be.
-        budget = max(frame_ms - min(self._other_ms, default=0.0), _LEAST_SHARE * frame_ms)
-        return 0.5 * STEPS_PER_OCTAVE * math.log2(max(median_low(known), 1e-6) / budget)
+        rate = median_low(max(cost.milliseconds - constant, _LEAST_OF_PIXELS * cost.milliseconds, 1e-6) / cost.pixels for cost in known)
+        return 0.5 * STEPS_PER_OCTAVE * math.log2(rate / budget)

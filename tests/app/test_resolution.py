@@ -1,21 +1,22 @@
 """How coarse the moving picture is: the choice against a made-up machine whose frames cost what a test says."""
 
+import math
 import random
 
 import pytest
 
-from blackhole_gl.app.resolution import COARSEST, REST_SHARE, STEPS_PER_OCTAVE, Resolution
+from blackhole_gl.app.resolution import COARSEST, PIXELS_SHARE, REST_SHARE, STEPS_PER_OCTAVE, Resolution
 
 STEP = 2.0 ** (1.0 / STEPS_PER_OCTAVE)
 
 
 class Machine:
-    """Frames that cost `full_ms` at full size, and `other_ms` beside the picture."""
+    """Frames whose pixels cost `full_ms` at full size, with `constant_ms` for a picture of any size and `other_ms` beside the picture."""
 
-    def __init__(self, full_ms: float, other_ms: float = 0.0, noise: float = 0.0):
-        self.full_ms, self.other_ms, self._noise = full_ms, other_ms, noise
+    def __init__(self, full_ms: float, other_ms: float = 0.0, noise: float = 0.0, *, constant_ms: float = 0.0, seed: int = 1):
+        self.full_ms, self.other_ms, self.constant_ms, self._noise = full_ms, other_ms, constant_ms, noise
         self.resolution = Resolution()
-        self.elapsed, self._random = 0.0, random.Random(1)
+        self.elapsed, self._random = 0.0, random.Random(seed)
 
     def run(self, frames: int = 0, target: float = 30.0, *, seconds: float = 0.0, camera_moving: bool = True, spike: float = 1.0) -> list[float]:
         """The scales of the frames of so many seconds, `frames` of them at least; `spike` multiplies the cost of the first."""
@@ -23,7 +24,7 @@ class Machine:
         while len(scales) < frames or time < seconds:
             index = len(scales)
             scale = self.resolution.scale(target, camera_moving=camera_moving, elapsed=self.elapsed)
-            cost = self.full_ms * scale**2 * self._random.uniform(1.0 - self._noise, 1.0 + self._noise) * (spike if index == 0 else 1.0)
+            cost = self._cost(scale) * (spike if index == 0 else 1.0)
             self.resolution.record(scale, cost, traced=camera_moving)
             self.resolution.record_rest(self.other_ms)
             self.elapsed = (cost + self.other_ms) / 1e3
@@ -31,8 +32,28 @@ class Machine:
             scales.append(scale)
         return scales
 
+    def move_and_rest(self, times: int = 2) -> "Machine":
+        """Movements of two seconds or so, before and after each the whole picture of a camera at rest."""
+        for _ in range(times):
+            self._rest_whole()
+            self.run(60)
+        self._rest_whole()
+        return self
+
+    def _rest_whole(self) -> None:
+        self.resolution.rest()
+        self.resolution.record(1.0, self._cost(1.0), traced=True)
+
     def frame_ms(self, scale: float) -> float:
-        return self.full_ms * scale**2 + self.other_ms
+        return self.constant_ms + self.full_ms * scale**2 + self.other_ms
+
+    def _cost(self, scale: float) -> float:
+        return (self.constant_ms + self.full_ms * scale**2) * self._random.uniform(1.0 - self._noise, 1.0 + self._noise)
+
+
+def hops(scales: list[float]) -> int:
+    """How often the scale changed."""
+    return sum(a != b for a, b in zip(scales, scales[1:]))
 
 
 @pytest.mark.parametrize("full_ms", [40.0, 70.0, 130.0, 400.0])
@@ -68,7 +89,7 @@ def test_the_scale_does_not_hop(full_ms):
     """Fifteen per cent of noise in the cost is 0.6 steps. A step that fits barely may be left once; the next one is then well within."""
     machine = Machine(full_ms, noise=0.15)
     scales = machine.run(seconds=20.0)[-500:]
-    assert sum(a != b for a, b in zip(scales, scales[1:])) <= 1
+    assert hops(scales) <= 1
 
 
 def test_one_slow_frame_changes_nothing():
@@ -105,3 +126,68 @@ def test_a_movement_begins_with_what_the_last_one_found():
     machine.resolution.rest()
     machine.full_ms = 130.0
     assert set(machine.run(20)) == {found}
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.15])
+@pytest.mark.parametrize("constant_ms", [5.0, 10.0, 20.0])
+@pytest.mark.parametrize("full_ms", [10.0, 40.0, 100.0, 400.0])
+@pytest.mark.parametrize("movements", [0, 2])
+def test_the_frame_rate_is_held_where_pixels_are_not_all_that_costs(full_ms, constant_ms, noise, movements):
+    """A step is left when the frame is off by 0.9 steps, a factor 2^(0.9/4) = 1.17; it is no longer and no shorter than that, unless an end is reached."""
+    aim, machine = 1e3 / 30.0, Machine(full_ms, noise=noise, constant_ms=constant_ms)
+    if movements:
+        machine.move_and_rest(movements)
+    scales = machine.run(seconds=25.0)
+    assert hops(scales[-500:]) <= 1
+    frame = machine.frame_ms(scales[-1])
+    assert frame <= 1.17 * aim or scales[-1] == COARSEST[True]
+    assert frame >= aim / 1.17 or scales[-1] == 1.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("constant_ms", [0.0, 5.0, 10.0, 20.0])
+def test_the_constant_is_found(constant_ms, seed):
+    """Fifteen per cent of noise in 33 ms is 5 ms, for frames in motion as for the pixels' share of one at rest; movements average over it."""
+    machine = Machine(200.0, noise=0.15, constant_ms=constant_ms, seed=seed).move_and_rest(4)
+    assert machine.resolution.constant_ms == pytest.approx(constant_ms, abs=5.0)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.15])
+@pytest.mark.parametrize("full_ms", [10.0, 40.0])
+@pytest.mark.parametrize("constant_ms", [40.0, 80.0])
+def test_sharpness_is_not_given_up_for_nothing(constant_ms, full_ms, noise):
+    """Where the constant alone exceeds the frame, a quarter of the size would gain a few milliseconds. Pixels take a sixth of the constant instead,
+    or half or twice of that, as noise in the constant is as much."""
+    machine = Machine(full_ms, noise=noise, constant_ms=constant_ms).move_and_rest()
+    scales = machine.run(seconds=25.0)
+    pixels_ms = machine.frame_ms(scales[-1]) - constant_ms
+    assert min(0.5 * PIXELS_SHARE * constant_ms, 0.5 * full_ms) <= pixels_ms <= 2.0 * PIXELS_SHARE * constant_ms
+    assert scales[-1] > COARSEST[True] and hops(scales[60:]) <= 1
+
+
+def test_pixels_that_cost_much_are_not_drawn_where_the_constant_exceeds_the_frame():
+    assert Machine(1000.0, constant_ms=40.0).move_and_rest().run(seconds=5.0)[-1] == COARSEST[True]
+
+
+@pytest.mark.parametrize("constant_ms", [0.0, 10.0, 20.0])
+def test_a_view_that_changes_is_followed(constant_ms):
+    """Pixels twice as dear and half as dear again and again, within six seconds: the mean frame is the one aimed at, and what is taken for the constant stays."""
+    machine = Machine(100.0, noise=0.15, constant_ms=constant_ms).move_and_rest()
+    frames = [machine.frame_ms(machine.run(1)[0]) for _ in range(60)]
+    taken = machine.resolution.constant_ms
+    for number in range(900):
+        machine.full_ms = 100.0 * 2.0 ** math.sin(2.0 * math.pi * number / 180.0)
+        frames.append(machine.frame_ms(machine.run(1)[0]))
+    assert sum(frames[60:]) / 900 == pytest.approx(1e3 / 30.0, rel=0.1)
+    assert machine.resolution.constant_ms == taken
+
+
+def test_a_small_picture_that_is_cheaper_by_the_pixel_has_no_negative_constant():
+    """As where it fits a cache."""
+    resolution = Resolution()
+    for _ in range(20):
+        resolution.scale(30.0, camera_moving=True, elapsed=0.03)
+        resolution.record(0.25, 1.0, traced=True)
+        resolution.rest()
+        resolution.record(1.0, 100.0, traced=True)
+    assert resolution.constant_ms == 0.0

@@ -1,0 +1,139 @@
+"""How long the frames of the real window take while its camera rests or moves, from picture to picture, and how coarse they are drawn.
+
+    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--no-display]
+
+Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
+rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
+out to 30). Each goes on for 3 s before frames count. A figure stands for the machine and its screen together: on a display with vertical
+synchronisation no frame is shorter than the screen's.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time as clock
+from dataclasses import dataclass, field, replace
+from statistics import median, quantiles
+from typing import Callable, Collection, Iterator
+
+from blackhole_gl import presets
+from blackhole_gl.app import commands, picture, window
+from blackhole_gl.app.state import WindowState
+from imgui_bundle import hello_imgui
+
+SETTLE_S = 3.0  # programs, and the scale that the window finds
+ORBIT_DEG = (60.0, 100.0)
+ZOOM_RS = (6.0, 30.0)
+
+
+class Swing:
+    """Holds one key until a value passes the end of a range, then the other until it passes the other end."""
+
+    def __init__(self, value: Callable[[WindowState], float], ends: tuple[float, float], up: str, down: str):
+        self._value, self._ends, self._keys, self._upwards = value, ends, (down, up), True
+
+    def __call__(self, state: WindowState) -> tuple[str, ...]:
+        low, high = self._ends
+        value = self._value(state)
+        self._upwards = value < high if self._upwards else value <= low
+        return (self._keys[self._upwards],)
+
+
+def motions() -> dict[str, Callable[[WindowState], Collection[str]]]:
+    """The keys held, by what is called a motion."""
+    tilt = Swing(lambda state: state.scene.camera.inclination_deg, ORBIT_DEG, "orbit_down", "orbit_up")
+    return {
+        "rest": lambda state: (),
+        "turn": lambda state: ("orbit_right",),
+        "orbit": lambda state: (*tilt(state), "orbit_right"),
+        "zoom": Swing(lambda state: state.scene.camera.distance, ZOOM_RS, "zoom_out", "zoom_in"),
+    }
+
+
+@dataclass
+class Run:
+    """One motion at one frame rate aimed at, and the pictures seen: when each was there [s] and at which scale."""
+
+    motion: str
+    target_fps: float
+    stamps: list[float] = field(default_factory=list)
+    scales: list[float] = field(default_factory=list)
+
+    def row(self) -> str:
+        """Its row of the table; the first frame of two has no length."""
+        lengths = [1e3 * (b - a) for a, b in zip(self.stamps, self.stamps[1:])]
+        changes = sum(a != b for a, b in zip(self.scales, self.scales[1:]))
+        middle, slow = median(lengths), quantiles(lengths, n=20)[-1]
+        scale = f"{median(self.scales):.2f} | {min(self.scales):.2f} to {max(self.scales):.2f} | {changes}"
+        return f"| {self.motion} | {self.target_fps:g} | {len(lengths)} | {middle:.1f} | {slow:.1f} | {max(lengths):.1f} | {1e3 / middle:.1f} | {scale} |"
+
+
+class Conductor:
+    """Leads the window through the runs and closes it after the last."""
+
+    def __init__(self, runs: list[Run], seconds: float):
+        self._todo: Iterator[Run] = iter(runs)
+        self._seconds, self._keys = seconds, motions()
+        self._run: Run | None = None
+        self._until = 0.0
+
+    def hold(self, state: WindowState) -> Collection[str]:
+        """What is held down in this frame."""
+        if clock.perf_counter() > self._until:
+            self._next(state)
+        return self._keys[self._run.motion](state) if self._run else ()
+
+    def saw(self, shown: picture.Picture) -> None:
+        """A picture was drawn."""
+        now = clock.perf_counter()
+        if self._run and shown.is_current and now > self._until - self._seconds:
+            self._run.stamps.append(now)
+            self._run.scales.append(shown.scale)
+
+    def _next(self, state: WindowState) -> None:
+        if self._run:
+            print(self._run.row(), flush=True)
+        self._run = next(self._todo, None)
+        if self._run is None:
+            hello_imgui.get_runner_params().app_shall_exit = True
+            return
+        state.show_panel = False
+        state.change({"playback.target_fps": self._run.target_fps})
+        self._until = clock.perf_counter() + SETTLE_S + self._seconds
+
+
+def conduct(conductor: Conductor) -> None:
+    """Puts the conductor's keys into the window's hands and shows it every picture."""
+    advance, update = commands.advance, picture.Picture.update
+
+    def led(state, hand, dt) -> None:
+        advance(state, replace(hand, held=conductor.hold(state)), dt)
+
+    def watched(self, *args, **kwargs) -> bool:
+        rendered = update(self, *args, **kwargs)
+        if rendered:
+            conductor.saw(self)
+        return rendered
+
+    commands.advance, picture.Picture.update = led, watched
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--preset", action="append")
+    parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--seconds", type=float, default=20.0, help="of each run that count")
+    parser.add_argument("--target-fps", type=float, action="append", help="0: full size (default: 0 and 30)")
+    parser.add_argument("--motion", action="append", choices=list(motions()), help="(default: all)")
+    parser.add_argument("--no-display", action="store_true", help="GLFW's null platform, which presents nothing")
+    given = parser.parse_args()
+    size = tuple(int(side) for side in given.size.split("x"))
+    runs = [Run(motion, target) for target in given.target_fps or (0.0, 30.0) for motion in given.motion or motions()]
+    conduct(Conductor(runs, given.seconds))
+    print(f"| {given.size} | fps aimed at | frames | median ms | 95 % ms | longest ms | fps | scale | from, to | changes |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
+    window.run(presets.load(given.preset or ["kerr"]), null_platform=given.no_display, size=size)
+
+
+if __name__ == "__main__":
+    main()
