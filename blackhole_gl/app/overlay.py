@@ -46,7 +46,7 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
 
 def messages(state: WindowState, picture: Picture | None, corner: Corner, width: float) -> None:
     """Errors and the notice, with their bottom left at `corner`, at most `width` wide; errors stay until mended or dismissed."""
-    since = picture.preparation.since if picture else None
+    since = picture.preparation.since if picture and not picture.bridges else None
     if since is not None and clock.perf_counter() - since > PREPARING_AFTER_S:
         corner = _message("Preparing", "Preparing the programs of this scene …", corner, width, is_error=False)
     if state.shader_error:

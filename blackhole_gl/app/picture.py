@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time as clock
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import moderngl
 import numpy as np
 
+from .. import plan
 from ..render.programs import Unready
 from ..scene import Scene
 from .preparation import Preparation
@@ -70,6 +71,29 @@ class RayFigures:
         return cls(float(np.mean(hits.steps)), int(np.count_nonzero(hits.fate == 0)))
 
 
+@dataclass(frozen=True)
+class _Method:
+    """How a scene was traced: the scene as it was asked for, and with everything chosen that it left to the plan."""
+
+    asked: Scene
+    stated: Scene
+
+    @classmethod
+    def of(cls, asked: Scene, drawn: Scene) -> _Method:
+        """That of `asked`, which was drawn as `drawn`."""
+        return cls(asked, plan.resolved(drawn))
+
+    def stated_in(self, scene: Scene) -> Scene | None:
+        """`scene` traced in this way; None unless it is the scene asked for with another camera or hole, and of the same space-time."""
+        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or plan.resolved(scene).rays.model != self.stated.rays.model:
+            return None
+        return replace(scene, rays=self.stated.rays, parameters=self.stated.parameters)
+
+    def bridges(self, scene: Scene) -> bool:
+        """Whether `scene`, some program of which is missing, may be drawn in this way meanwhile: only where it is its method that is new."""
+        return self.stated_in(scene) is not None and plan.resolved(scene).rays != self.stated.rays
+
+
 class Picture:
     """Renders a scene into a texture of its own and draws that into the window.
 
@@ -82,6 +106,8 @@ class Picture:
         report: of the last picture rendered, a ``render.frame.FrameReport``; None before the first.
         rays: what became of its rays, as of the last `count_rays`.
         scale: width and height of the last picture over those of its area.
+        bridges: whether the picture goes on by an earlier method while the programs of the scene's own are prepared, as where a moving camera
+            comes to where the plan takes another.
     """
 
     def __init__(self, gl: moderngl.Context, renderer: Any, preparation: Preparation):
@@ -91,6 +117,7 @@ class Picture:
         self.report: Any = None
         self.rays: RayFigures | None = None
         self.scale = 1.0
+        self.bridges = False
         self._program = gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         self._triangle = gl.vertex_array(self._program, [])
         self._shown: moderngl.Framebuffer | None = None
@@ -101,10 +128,16 @@ class Picture:
         self._took_ms = 0.0
         self._rehearsed = 0  # of `_REHEARSALS`, and one more when a whole picture has followed
         self._rays_stale = True
+        self._method: _Method | None = None  # of the last picture
+        self._prepared: _Method | None = None  # what the other process was asked for
 
     @property
     def is_current(self) -> bool:
-        """Whether the picture is of the scene of the last `update`, and neither an earlier one nor a rehearsal."""
+        """Whether the picture is of the scene of the last `update`, and neither an earlier one nor a rehearsal, nor by another method."""
+        return self._is_rehearsed and not self.bridges
+
+    @property
+    def _is_rehearsed(self) -> bool:
         return self._rehearsed > len(_REHEARSALS)
 
     def forget(self) -> None:
@@ -129,12 +162,16 @@ class Picture:
             Whether a picture was rendered.
         """
         now = clock.perf_counter()
-        if self.preparation.waits(now):
+        waits = self.preparation.waits(now)
+        bridge = self._bridge(scene, waits)
+        self.bridges = bridge is not None
+        if waits and not self.bridges:
             return False
+        drawn = bridge or scene
         rehearsing = self._rehearsed < len(_REHEARSALS)
         scale = COARSEST[True] if rehearsing else self._scale_for(scene, now, moving, camera_moving)
         size = area.scaled(scale)
-        wanted = (scene, time, size)
+        wanted = (drawn, time, size)
         if wanted == self._made_of and self.is_sharp and not rehearsing:
             self._begun = None
             return False
@@ -145,11 +182,11 @@ class Picture:
             self.renderer.hit_map.forget()
         self.renderer.programs.deadline = self.preparation.deadline(now)
         try:
-            report = self.renderer.render(scene, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
+            report = self.renderer.render(drawn, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
         except Unready:
-            self.preparation.missed(scene, area.scaled(COARSEST[True]), now)
             self.renderer.hit_map.forget()  # it may be half drawn
-            self._made_of, self._rehearsed = None, 0
+            self._made_of = None
+            self._miss(scene, area.scaled(COARSEST[True]), now)
             return False
         except Exception:
             self.preparation.over()
@@ -157,17 +194,37 @@ class Picture:
         self._shown, self._spare = self._spare, self._shown
         self.report, self.scale = report, scale
         self._rays_stale |= report.traced
-        if self.is_current:
-            self._learn(report)
-        elif rehearsing:
-            self._begun = None
-            self._rehearsed += 1
-        else:
-            self._rehearsed += 1
-            self._resolution = Resolution()  # what is known is of another scene
-            self._learn(report)
+        self._follow(report, rehearsing)
+        if self._is_rehearsed and not waits:
+            self._method = _Method.of(scene, drawn)
             self.preparation.over()
         return True
+
+    def _follow(self, report: Any, rehearsing: bool) -> None:
+        """What a picture means for those to come."""
+        if rehearsing:
+            self._begun = None
+            self._rehearsed += 1
+            return
+        if not self._is_rehearsed:
+            self._rehearsed += 1
+            self._resolution = Resolution()  # what is known is of another scene
+        self._learn(report)
+
+    def _bridge(self, scene: Scene, waits: bool) -> Scene | None:
+        """`scene` by the method that it can be drawn with now, while another is prepared: that of the last picture, and then the one asked for, though
+        the camera may be where the plan takes a third by then. None where nothing is prepared, or the scene is another one altogether."""
+        if self.preparation.since is None or not self._is_rehearsed:
+            return None
+        return (self._method if waits else self._prepared).stated_in(scene)
+
+    def _miss(self, scene: Scene, size: tuple[int, int], now: float) -> None:
+        """A program of `scene` was missing."""
+        self.preparation.missed(scene, size, now)
+        if self._is_rehearsed and not self.bridges and self._method.bridges(scene):
+            self._prepared = _Method.of(scene, scene)
+        else:
+            self._rehearsed = 0
 
     def _learn(self, report: Any) -> None:
         """Takes in what the picture cost."""

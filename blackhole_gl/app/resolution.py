@@ -40,10 +40,11 @@ _LEAST_OF_PIXELS = 1.0 / 16.0  # of a picture's cost: a constant found too large
 
 @dataclass(frozen=True)
 class _Cost:
-    """What a picture cost in milliseconds, and its pixels as a share of the full size."""
+    """What a picture cost in milliseconds; its pixels as a share of the full size; whether its rays were traced, and its camera at rest."""
 
     pixels: float
     milliseconds: float
+    traced: bool
     at_rest: bool
 
     def constant(self, other: _Cost) -> float:
@@ -54,15 +55,15 @@ class _Cost:
     def is_comparable(self, other: _Cost) -> bool:
         """Whether the two tell their constant."""
         few, many = sorted((self.pixels, other.pixels))
-        return self.at_rest != other.at_rest and many >= _APART * few
+        return self.traced and other.traced and self.at_rest != other.at_rest and many >= _APART * few
 
 
 class Resolution:
     """Chooses the scale from what frames have cost."""
 
     def __init__(self) -> None:
-        # Of pictures that traced rays and of those that kept them. Kept rays save more than their trace: the sky behind them is kept too.
-        self._costs = {traced: deque[_Cost](maxlen=_REMEMBERED) for traced in (True, False)}
+        # Of moving cameras' pictures, with those at rest that trace as they do; and of others, which save more than the trace: their sky is kept too.
+        self._costs = {moving: deque[_Cost](maxlen=_REMEMBERED) for moving in (True, False)}
         self._constants: deque[float] = deque(maxlen=_CONSTANTS)
         self._other_ms: deque[float] = deque(maxlen=_REMEMBERED)
         self._step = {True: 0, False: 0}  # below full size, the camera moving or not
@@ -77,8 +78,9 @@ class Resolution:
 
     def record(self, scale: float, milliseconds: float, *, traced: bool) -> None:
         """Takes in what a picture at `scale` cost."""
-        known, cost = self._costs[traced], _Cost(scale**2, milliseconds, at_rest=not self._camera_moved)
-        found = [cost.constant(other) for other in known if traced and cost.is_comparable(other)]
+        cost = _Cost(scale**2, milliseconds, traced, at_rest=not self._camera_moved)
+        known = self._costs[traced or not cost.at_rest]  # a camera that turns about the axis keeps its rays and moves
+        found = [cost.constant(other) for other in known if cost.is_comparable(other)]
         if found:
             self._constants.append(median(found))
         known.append(cost)

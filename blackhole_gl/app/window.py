@@ -214,7 +214,7 @@ class Window:
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
         busy = self.state.is_moving or self.live_chart.busy(self.state) or self._has_more_to_draw()
-        preparing = self.picture is not None and self.picture.preparation.since is not None
+        preparing = self.picture is not None and self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else _IDLE_FPS
         self._full_screen.set(self.state.full_screen)

@@ -1,6 +1,16 @@
-"""Where the picture lies in the window."""
+"""Where the picture lies in the window, and what it shows while programs are missing."""
 
-from blackhole_gl.app.picture import Area
+import time as clock
+from concurrent.futures import Future
+
+import pytest
+
+from blackhole_gl import plan
+from blackhole_gl.app.picture import Area, Picture
+from blackhole_gl.app.preparation import Preparation
+from blackhole_gl.render.programs import Unready
+from blackhole_gl.scene import Scene
+from tests.app.fake_renderer import FakeRenderer
 
 
 def test_coarse_pictures_have_a_pixel_at_least():
@@ -17,3 +27,112 @@ def test_neighbouring_areas_leave_no_gap_at_odd_scales():
     left = Area.of_screen(0, 0, 333, 100, 100, (1.25, 1.25))
     right = Area.of_screen(333, 0, 100, 100, 100, (1.25, 1.25))
     assert left.x + left.width == right.x
+
+
+class Renderer(FakeRenderer):
+    """Compiles a program for each integrator and look, unless its deadline has passed."""
+
+    def __init__(self, gl):
+        super().__init__(gl)
+        self.compiled = set()
+
+    def render(self, scene, time, size, target=None, **how):
+        program = plan.resolved(scene).rays.integrator, scene.disk.enabled
+        if program not in self.compiled:
+            if self.programs.deadline < clock.perf_counter():
+                raise Unready
+            self.compiled.add(program)
+        return super().render(scene, time, size, target, **how)
+
+    @property
+    def integrators(self):
+        """Of the pictures drawn so far."""
+        return [plan.resolved(scene).rays.integrator for scene, *_ in self.calls]
+
+
+class Moving:
+    """A picture under a camera that a test tilts; the plan takes another integrator above 30° and above 60°."""
+
+    def __init__(self, ctx, monkeypatch):
+        monkeypatch.setattr(plan, "resolved", self._resolved)
+        self.work, self._time = [], 0.0
+        self.renderer = Renderer(ctx)
+        self.picture = Picture(ctx, self.renderer, Preparation(self._submit))
+        self.scene = Scene().with_values({"camera.inclination_deg": 20.0})
+        while not self.picture.is_current:
+            self.draw()
+
+    def _resolved(self, scene):
+        if scene.rays.integrator != "auto":
+            return scene
+        integrator = ("rk4", "nystrom5", "nystrom4")[int(scene.camera.inclination_deg // 30.0)]
+        return scene.with_values({"rays.model": "kerr", "rays.integrator": integrator})
+
+    def _submit(self, scene, size):
+        self.work.append((plan.resolved(scene).rays.integrator, Future()))
+        return self.work[-1][1]
+
+    def draw(self, **values):
+        """Whether a picture was drawn of the scene with `values`, keys with an underscore for the dot."""
+        self.scene = self.scene.with_values({key.replace("_", ".", 1): value for key, value in values.items()})
+        self._time += 0.1  # the disk turns
+        return self.picture.update(self.scene, self._time, Area(0, 0, 64, 36), moving=True, camera_moving=True)
+
+
+@pytest.fixture
+def moving(ctx, monkeypatch):
+    return Moving(ctx, monkeypatch)
+
+
+def test_a_moving_picture_goes_on_while_another_method_is_prepared(moving):
+    assert not moving.draw(camera_inclination_deg=40.0), "seen to be missing"
+    assert all(moving.draw(camera_inclination_deg=40.0 + tilt) for tilt in range(5))
+    assert moving.renderer.integrators[-5:] == ["rk4"] * 5 and moving.renderer.calls[-1][0].camera.inclination_deg == 44.0
+    assert moving.picture.bridges and not moving.picture.is_current
+    moving.work[0][1].set_result(None)
+    assert moving.draw(camera_inclination_deg=45.0) and moving.draw(camera_inclination_deg=46.0)
+    assert moving.renderer.integrators[-2:] == ["nystrom5"] * 2
+    assert moving.picture.is_current and [integrator for integrator, _ in moving.work] == ["nystrom5"]
+
+
+def test_a_picture_that_rests_becomes_that_of_the_plan(moving):
+    moving.draw(camera_inclination_deg=40.0)
+    moving.draw()
+    moving.work[0][1].set_result(None)
+    moving.draw()
+    moving.draw()
+    assert moving.picture.is_current and moving.renderer.integrators[-1] == "nystrom5"
+    assert moving.renderer.calls[-1][0] == moving.scene
+
+
+def test_a_third_method_is_prepared_after_the_second(moving):
+    """The window does not compile it in a frame of its own, though what it waited for is done."""
+    moving.draw(camera_inclination_deg=40.0)
+    moving.draw(camera_inclination_deg=70.0)
+    moving.work[0][1].set_result(None)
+    assert moving.draw() and moving.renderer.integrators[-1] == "nystrom5"
+    assert not moving.draw() and [integrator for integrator, _ in moving.work] == ["nystrom5", "nystrom4"]
+    assert moving.draw() and moving.renderer.integrators[-1] == "nystrom5"
+    moving.work[1][1].set_result(None)
+    assert moving.draw() and moving.renderer.integrators[-1] == "nystrom4"
+
+
+def test_methods_change_to_and_fro_at_once_when_both_have_been_drawn_with(moving):
+    moving.draw(camera_inclination_deg=40.0)
+    moving.work[0][1].set_result(None)
+    assert all([moving.draw(camera_inclination_deg=inclination) for inclination in (40.0, 20.0, 40.0, 20.0)])
+    assert moving.renderer.integrators[-4:] == ["nystrom5", "rk4", "nystrom5", "rk4"] and len(moving.work) == 1
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{"disk_enabled": False}, {"disk_enabled": False, "camera_inclination_deg": 40.0}, {"rays_tolerance": 0.1, "camera_inclination_deg": 40.0}],
+)
+def test_another_scene_is_not_drawn_by_an_earlier_method(moving, values):
+    drawn = len(moving.renderer.calls)
+    assert not any(moving.draw(**values) for _ in range(3))
+    assert len(moving.renderer.calls) == drawn and len(moving.work) == 1
+    moving.work[0][1].set_result(None)
+    while not moving.picture.is_current:
+        moving.draw()
+    assert moving.renderer.calls[-1][0] == moving.scene

@@ -18,14 +18,16 @@ class Machine:
         self.resolution = Resolution()
         self.elapsed, self._random = 0.0, random.Random(seed)
 
-    def run(self, frames: int = 0, target: float = 30.0, *, seconds: float = 0.0, camera_moving: bool = True, spike: float = 1.0) -> list[float]:
+    def run(
+        self, frames: int = 0, target: float = 30.0, *, seconds: float = 0.0, camera_moving: bool = True, keeps_rays: bool = False, spike: float = 1.0
+    ) -> list[float]:
         """The scales of the frames of so many seconds, `frames` of them at least; `spike` multiplies the cost of the first."""
         scales, time = [], 0.0
         while len(scales) < frames or time < seconds:
             index = len(scales)
             scale = self.resolution.scale(target, camera_moving=camera_moving, elapsed=self.elapsed)
             cost = self._cost(scale) * (spike if index == 0 else 1.0)
-            self.resolution.record(scale, cost, traced=camera_moving)
+            self.resolution.record(scale, cost, traced=camera_moving and not keeps_rays)
             self.resolution.record_rest(self.other_ms)
             self.elapsed = (cost + self.other_ms) / 1e3
             time += self.elapsed
@@ -171,7 +173,7 @@ def test_pixels_that_cost_much_are_not_drawn_where_the_constant_exceeds_the_fram
 
 @pytest.mark.parametrize("constant_ms", [0.0, 10.0, 20.0])
 def test_a_view_that_changes_is_followed(constant_ms):
-    """Pixels twice as dear and half as dear again and again, within six seconds: the mean frame is the one aimed at, and what is taken for the constant stays."""
+    """Pixels twice as dear and half as dear again and again, in six seconds: the mean frame is the one aimed at, and the constant believed in stays."""
     machine = Machine(100.0, noise=0.15, constant_ms=constant_ms).move_and_rest()
     frames = [machine.frame_ms(machine.run(1)[0]) for _ in range(60)]
     taken = machine.resolution.constant_ms
@@ -180,6 +182,14 @@ def test_a_view_that_changes_is_followed(constant_ms):
         frames.append(machine.frame_ms(machine.run(1)[0]))
     assert sum(frames[60:]) / 900 == pytest.approx(1e3 / 30.0, rel=0.1)
     assert machine.resolution.constant_ms == taken
+
+
+def test_a_camera_that_turns_about_the_axis_is_drawn_as_sharp_as_its_kept_rays_allow():
+    machine = Machine(400.0).move_and_rest()
+    traced = machine.run(seconds=3.0)[-1]
+    machine.full_ms = 100.0
+    turning = machine.run(seconds=3.0, keeps_rays=True)[-1]
+    assert turning == pytest.approx(2.0 * traced, rel=STEP - 1.0)
 
 
 def test_a_small_picture_that_is_cheaper_by_the_pixel_has_no_negative_constant():
