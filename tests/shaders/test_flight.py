@@ -22,14 +22,14 @@ SMALL, WHOLE = (320, 180), (640, 360)
 # Of the whole flight: 10, 60 and 160 lie in the disk's plane, 110 and 260 over the pole.
 FRAMES = (0, 10, 13, 30, 60, 80, 110, 135, 160, 185, 235, 260)
 # Where the whole flight's displacement, one pixel's ꟻLIP and the mean ꟻLIP are largest (docs/data/flight.csv).
-WORST = (145, 208, 213)
+WORST = (58, 200, 212)
 
-# Less than half of the mean ꟻLIP of a frame against itself one grey level lighter, the least step of a screen; a test below sees to it.
-LARGEST_MEAN_FLIP = 0.015
+# Less than a fifth of the mean ꟻLIP of a frame against itself one grey level lighter, the least step of a screen; a test below sees to it.
+LARGEST_MEAN_FLIP = 0.005
 
-# Grey levels of 255, mean over a block of 8×8 pixels: a block that came and went by more could be seen, as one grey level is the least a screen shows.
+# Grey levels of 255, mean over a block of 8×8 pixels: half of what a screen shows at the least.
 BLOCK = 8
-LARGEST_FLICKER = 1.0
+LARGEST_FLICKER = 0.5
 
 
 @pytest.fixture(scope="module")
@@ -72,10 +72,10 @@ def test_the_flight_goes_where_it_is_said_to_go(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize("index", [0, 120])
-def test_the_bound_on_flip_is_less_than_half_a_grey_level(renderer: Renderer, scene: Scene, index: int) -> None:
+def test_the_bound_on_flip_is_less_than_a_fifth_of_a_grey_level(renderer: Renderer, scene: Scene, index: int) -> None:
     exact = flight.drawn(renderer, flight.camera_at(scene, index / COUNT), 0.0, SMALL).exact
     lighter = np.where(exact < 255, exact + 1, 254).astype(np.uint8)
-    assert flip(exact, lighter).mean() > 2.0 * LARGEST_MEAN_FLIP
+    assert flip(exact, lighter).mean() > 5.0 * LARGEST_MEAN_FLIP
 
 
 def test_exact_pictures_have_nothing_to_compare(renderer: Renderer, scene: Scene) -> None:
@@ -94,7 +94,7 @@ def test_the_plot_shows_every_part(tmp_path: Path) -> None:
 def test_refinement_adds_no_shimmer(renderer: Renderer, scene: Scene, index: int, step_px: float) -> None:
     """The camera tilts by a part of a pixel a frame, so that pixels pass from cell to cell; the disk stands still.
 
-    The whole picture changes by no more than the exact one, to 2 %: what is left when the noise of 8 bits is counted in both. No block flickers more than
+    The whole picture changes by no more than the exact one, to half a per cent: what is left when the noise of 8 bits is counted in both. No block flickers more than
     the exact one's by what would show. Both are seen in the change from frame to frame and in the change of that, where what comes and goes is not hidden by
     what moves.
     """
@@ -108,7 +108,7 @@ def test_refinement_adds_no_shimmer(renderer: Renderer, scene: Scene, index: int
         exact.append(pair.exact)
     for order in (1, 2):
         change, true_change = (np.abs(np.diff(np.array(frames, float), order, axis=0)).mean(axis=-1) for frames in (refined, exact))
-        assert change.mean() <= 1.02 * true_change.mean()
+        assert change.mean() <= 1.005 * true_change.mean()
         assert np.max(_blocks(change) - _blocks(true_change)) <= LARGEST_FLICKER
 
 

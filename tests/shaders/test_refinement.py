@@ -145,7 +145,7 @@ def test_a_wider_disk_is_judged_anew(renderer: Renderer) -> None:
 
 
 def test_the_picture_is_that_of_exact_rays(renderer: Renderer) -> None:
-    """No blocks, no seams: of a large picture few pixels differ by more than two grey levels, where stars fall between pixels otherwise."""
+    """No blocks, no seams: of a large picture next to no pixels differ by more than two grey levels, beside the brightest edges."""
     scene = _scene()
     renderer.hit_map.forget()
     renderer.render(scene, 0.0, (1280, 720))
@@ -153,4 +153,4 @@ def test_the_picture_is_that_of_exact_rays(renderer: Renderer) -> None:
     renderer.hit_map.forget()
     renderer.render(scene, 0.0, (1280, 720), progressive=True)
     apart = np.abs(renderer.read_rgb8().astype(int) - exact).max(axis=-1)
-    assert np.mean(apart > 2) < 0.01
+    assert np.mean(apart > 2) < 0.0005
