@@ -54,8 +54,20 @@ class Area:
         return self.width < 1 or self.height < 1
 
     def scaled(self, scale: float) -> tuple[int, int]:
-        """(width, height) of a picture with `scale` times as many pixels each way, at least one."""
-        return max(round(self.width * scale), 1), max(round(self.height * scale), 1)
+        """(width, height) of a picture with about `scale` times as many pixels each way, at least one."""
+        return _side(self.width, scale), _side(self.height, scale)
+
+
+def _side(pixels: int, scale: float) -> int:
+    """`scale` times as many pixels, or up to four less.
+
+    llvmpipe compiles every shader anew that reads a texture of the first kind whose side is a power of two, and takes up to a second for it. The grid
+    of a refined hit map and the first level of the bloom have a quarter of the picture's side, rounded up, and with every step of the scale another.
+    """
+    side = max(round(pixels * scale), 1)
+    quarter = -(-side // 4)
+    is_power_of_two = quarter & (quarter - 1) == 0
+    return 4 * (quarter - 1) if scale < 1.0 and quarter > 4 and is_power_of_two else side
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ _SETTLING_S = 2.0  # in which a movement finds its step, whatever the noise
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
 _MOST_OTHER = 0.5  # of a frame that is not the picture's: waiting for the screen cannot be told from work, and would keep pictures coarse
 _REMEMBERED = 9  # frames; those beside a picture at rest that are of the same view
-_CONSTANTS = 31  # estimates of the constant: of three movements and more
+_CONSTANTS, _ENOUGH = 40, 20  # estimates of the constant that are kept, and that are believed: of four movements, and of two
 _APART = 2.0  # ratio of pixels from which two frames tell the constant from the rate
 _LEAST_OF_PIXELS = 1.0 / 16.0  # of a picture's cost: a constant found too large must not make pixels free
 
@@ -65,6 +65,7 @@ class Resolution:
         # Of moving cameras' pictures, with those at rest that trace as they do; and of others, which save more than the trace: their sky is kept too.
         self._costs = {moving: deque[_Cost](maxlen=_REMEMBERED) for moving in (True, False)}
         self._constants: deque[float] = deque(maxlen=_CONSTANTS)
+        self._cheapest = math.inf  # median cost of a few pictures that followed each other, in milliseconds
         self._other_ms: deque[float] = deque(maxlen=_REMEMBERED)
         self._step = {True: 0, False: 0}  # below full size, the camera moving or not
         self._glide = 0.0  # steps below full size, of the movement that goes on
@@ -73,8 +74,12 @@ class Resolution:
 
     @property
     def constant_ms(self) -> float:
-        """What a picture of any size that traces rays is taken to cost; 0 until a movement has begun and ended, as one picture at rest may mislead."""
-        return median_low(self._constants) if len(self._constants) > _REMEMBERED else 0.0
+        """What a picture of any size that traces rays is taken to cost; 0 until two movements have been seen.
+
+        It is no more than pictures have cost at their cheapest. When a machine becomes busy as a movement begins, coarse pictures seem to cost as much as
+        the whole one did; were that believed, the next would be drawn far too large.
+        """
+        return min(median(self._constants), self._cheapest) if len(self._constants) >= _ENOUGH else 0.0
 
     def record(self, scale: float, milliseconds: float, *, traced: bool) -> None:
         """Takes in what a picture at `scale` cost."""
@@ -84,6 +89,8 @@ class Resolution:
         if found:
             self._constants.append(median(found))
         known.append(cost)
+        if traced and len(known) == _REMEMBERED:
+            self._cheapest = min(self._cheapest, median(other.milliseconds for other in known))
 
     def record_rest(self, milliseconds: float) -> None:
         """Takes in what a frame cost beside its picture: panel, upscaling, waiting for the screen."""

@@ -1,5 +1,6 @@
 """Where the picture lies in the window, and what it shows while programs are missing."""
 
+import math
 import time as clock
 from concurrent.futures import Future
 
@@ -16,6 +17,15 @@ from tests.app.fake_renderer import FakeRenderer
 def test_coarse_pictures_have_a_pixel_at_least():
     assert Area(0, 0, 1, 3).scaled(0.25) == (1, 1)
     assert Area(0, 0, 0, 3).is_empty
+
+
+@pytest.mark.parametrize("scale", [2.0 ** (-step / 8.0) for step in range(17)])
+def test_coarse_pictures_have_no_textures_that_drivers_compile_anew_for(scale):
+    for width, height in [(1280, 720), (1021, 512), (900, 640), (3840, 2160)]:
+        for side, pixels in zip(Area(0, 0, width, height).scaled(scale), (width, height)):
+            quarter = math.ceil(side / 4)
+            assert scale == 1.0 and side == pixels or not math.log2(quarter).is_integer()
+            assert pixels * scale - 4.5 <= side <= pixels * scale + 0.5
 
 
 def test_area_is_in_framebuffer_pixels_from_the_bottom():

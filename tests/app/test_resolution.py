@@ -37,12 +37,13 @@ class Machine:
     def move_and_rest(self, times: int = 2) -> "Machine":
         """Movements of two seconds or so, before and after each the whole picture of a camera at rest."""
         for _ in range(times):
-            self._rest_whole()
+            self.rest_whole()
             self.run(60)
-        self._rest_whole()
+        self.rest_whole()
         return self
 
-    def _rest_whole(self) -> None:
+    def rest_whole(self) -> None:
+        """The camera comes to rest and the whole picture is drawn."""
         self.resolution.rest()
         self.resolution.record(1.0, self._cost(1.0), traced=True)
 
@@ -159,12 +160,31 @@ def test_the_constant_is_found(constant_ms, seed):
 @pytest.mark.parametrize("constant_ms", [40.0, 80.0])
 def test_sharpness_is_not_given_up_for_nothing(constant_ms, full_ms, noise):
     """Where the constant alone exceeds the frame, a quarter of the size would gain a few milliseconds. Pixels take a sixth of the constant instead,
-    or half or twice of that, as noise in the constant is as much."""
+    or half or twice of that before a step is left. With noise a tenth of the constant goes unseen, which is most of a sixth: then they take less."""
     machine = Machine(full_ms, noise=noise, constant_ms=constant_ms).move_and_rest()
     scales = machine.run(seconds=25.0)
     pixels_ms = machine.frame_ms(scales[-1]) - constant_ms
-    assert min(0.5 * PIXELS_SHARE * constant_ms, 0.5 * full_ms) <= pixels_ms <= 2.0 * PIXELS_SHARE * constant_ms
+    allowed = PIXELS_SHARE * constant_ms
+    assert min((0.15 if noise else 0.5) * allowed, 0.5 * full_ms) <= pixels_ms <= 2.0 * allowed
     assert scales[-1] > COARSEST[True] and hops(scales[60:]) <= 1
+
+
+@pytest.mark.parametrize("full_ms", [50.0, 90.0, 200.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_work_that_begins_with_a_movement_is_not_taken_for_the_constant(full_ms, seed):
+    """Another process slows every other movement to 2.5 times, some from the start: frames are as long as that makes them at the coarsest, or as aimed at,
+    but for the tenth that finding the step takes."""
+    machine, chance = Machine(full_ms, 10.0, noise=0.15, seed=seed), random.Random(seed)
+    took = fitting = 0.0
+    for _ in range(12):
+        machine.rest_whole()
+        for factor in (chance.choice((1.0, 2.5)), 1.0):
+            machine.full_ms = factor * full_ms
+            frames = [machine.frame_ms(scale) for scale in machine.run(35)]
+            took += sum(frames)
+            fitting += len(frames) * max(machine.frame_ms(COARSEST[True]), min(1e3 / 30.0, machine.frame_ms(1.0)))
+        machine.full_ms = full_ms
+    assert took <= 1.1 * fitting
 
 
 def test_pixels_that_cost_much_are_not_drawn_where_the_constant_exceeds_the_frame():
