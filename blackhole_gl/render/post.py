@@ -47,11 +47,12 @@ class PostPass:
         samplers = {"radiance": radiance, "tone_table": self._tone_table(scene, ray_plan)}
         if scene.post.bloom:
             samplers["glow"] = self._bloom(scene, ray_plan, radiance)
-        triangle = self._programs.get("post/tone_map.frag", scene, ray_plan, {**TONE_TABLE, "POST_SCALED": int(viewport[2:] != radiance.size)})
+        if viewport[2:] == radiance.size:
+            radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        triangle = self._programs.get("post/tone_map.frag", scene, ray_plan, TONE_TABLE)
         bind_samplers(triangle.program, samplers)
         triangle.program["target_origin"].value = viewport[:2]
-        if "target_texel" in triangle.program:  # not where the picture is as large as its radiance, and has no glow
-            triangle.program["target_texel"].value = _texel(viewport[2:])
+        triangle.program["target_texel"].value = _texel(viewport[2:])
         target.use()
         outer = target.viewport
         target.viewport = viewport

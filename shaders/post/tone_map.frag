@@ -5,7 +5,7 @@
 #include "common/tone_table.glsl"
 #include "common/tone.glsl"
 
-uniform sampler2D radiance;
+uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not, which costs less than texelFetch on llvmpipe
 #if POST_BLOOM
 uniform sampler2D glow;
 #endif
@@ -32,11 +32,7 @@ vec3 dither_noise(vec2 pixel) {
 
 void main() {
     vec2 pixel = gl_FragCoord.xy - target_origin;
-#if POST_SCALED
     vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb;
-#else
-    vec3 light = texelFetch(radiance, ivec2(pixel), 0).rgb;
-#endif
 #if POST_BLOOM
     light += post_bloom_intensity * textureLod(glow, pixel * target_texel, 0.0).rgb;
 #endif
