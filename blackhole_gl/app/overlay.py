@@ -39,6 +39,8 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
         imgui.text_colored(colour, f"{picture.rays.unresolved} unresolved rays")
     if not report.sharp:
         imgui.text_colored(theme.QUIET, "interpolated between exact rays" if state.is_moving else "sharpening")
+    if picture.samples > 1:
+        imgui.text_colored(theme.QUIET, f"{picture.samples} rays a pixel")
     if picture.scale < 1.0:
         imgui.text_colored(theme.QUIET, f"{picture.scale:.2f} of full resolution")
     imgui.end()

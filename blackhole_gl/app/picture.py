@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import plan
 from ..render.programs import Unready
+from ..render.supersampling import MOST_SAMPLES
 from ..scene import Scene
 from .preparation import Preparation
 from .resolution import COARSEST, Resolution
@@ -18,6 +19,9 @@ from .resolution import COARSEST, Resolution
 # A scene whose programs have not drawn yet is drawn coarse first, whether rays may be interpolated or not: the first draw makes drivers finish
 # what compiling began, and takes its time however few the pixels. After that nothing is missing.
 _REHEARSALS = (False, True)  # the one with fewer programs first
+
+# A picture at rest that takes longer than this for one more ray a pixel is left as it is, in seconds: meanwhile the window answers nothing.
+_LONGEST_SAMPLE_S = 0.5
 
 # The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
 _VERTEX = """#version 330 core
@@ -118,6 +122,7 @@ class Picture:
         report: of the last picture rendered, a ``render.frame.FrameReport``; None before the first.
         rays: what became of its rays, as of the last `count_rays`.
         scale: width and height of the last picture over those of its area.
+        samples: rays a pixel that the last picture is the mean of.
         bridges: whether the picture goes on by an earlier method while the programs of the scene's own are prepared, as where a moving camera
             comes to where the plan takes another.
     """
@@ -129,6 +134,7 @@ class Picture:
         self.report: Any = None
         self.rays: RayFigures | None = None
         self.scale = 1.0
+        self.samples = 1
         self.bridges = False
         self._program = gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         self._triangle = gl.vertex_array(self._program, [])
@@ -136,6 +142,7 @@ class Picture:
         self._spare: moderngl.Framebuffer | None = None
         self._made_of: tuple | None = None
         self._resolution = Resolution()
+        self._most_samples = 1  # that it is to have at rest
         self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
         self._took_ms = 0.0
         self._rehearsed = 0  # of `_REHEARSALS`, and one more when a whole picture has followed
@@ -160,6 +167,11 @@ class Picture:
     def is_sharp(self) -> bool:
         """Whether every pixel shown has a ray of its own; after a movement that takes some more calls of `update`."""
         return self.report is None or self.report.sharp
+
+    @property
+    def is_final(self) -> bool:
+        """Whether further calls of `update` for the same would draw nothing."""
+        return self.is_current and self.is_sharp and self.samples >= self._most_samples
 
     def update(self, scene: Scene, time: float, area: Area, *, moving: bool, camera_moving: bool, exact: bool = False) -> bool:
         """Renders when anything that shows has changed.
@@ -186,9 +198,10 @@ class Picture:
         wanted = (drawn, time, size)
         if wanted == self._made_of and self.is_sharp and not rehearsing:
             self._begun = None
-            return False
+            return self._draw_finer(drawn, time, size)
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
+        self.samples = self._most_samples = 1
         progressive = _REHEARSALS[self._rehearsed] if rehearsing else camera_moving or not (exact or self.is_current and self.is_sharp)
         if rehearsing:
             self.renderer.hit_map.forget()
@@ -205,11 +218,24 @@ class Picture:
             raise
         self._shown, self._spare = self._spare, self._shown
         self.report, self.scale = report, scale
+        if drawn.post.view == "picture":
+            self._most_samples = MOST_SAMPLES
         self._rays_stale |= report.traced
         self._follow(report, rehearsing)
         if self._is_rehearsed and not waits:
             self._method = _Method.of(scene, drawn)
             self.preparation.over()
+        return True
+
+    def _draw_finer(self, scene: Scene, time: float, size: tuple[int, int]) -> bool:
+        """One more ray a pixel for a picture in which nothing changes any more. Returns whether there was one to take."""
+        if self.samples >= self._most_samples:
+            return False
+        begun = clock.perf_counter()
+        self.samples = self.renderer.render_finer(scene, time, size, target=self._spare_of(size))
+        self._shown, self._spare = self._spare, self._shown
+        if clock.perf_counter() - begun > _LONGEST_SAMPLE_S:
+            self._most_samples = self.samples
         return True
 
     def _follow(self, report: Any, rehearsing: bool) -> None:

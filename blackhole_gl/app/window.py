@@ -278,7 +278,7 @@ class Window:
 
     def _has_more_to_draw(self) -> bool:
         """Whether the picture that rests is still to come."""
-        return self.state.render_error is None and not (self.picture and self.picture.is_current and self.picture.is_sharp)
+        return self.state.render_error is None and not (self.picture and self.picture.is_final)
 
     def _is_minimised(self) -> bool:
         return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
@@ -318,7 +318,7 @@ class Window:
             return
         if self._may_idle:
             self.warm_up.start()
-        if state.show_overlay and not failed and not (rendered and self.picture.report.traced):
+        if state.show_overlay and not failed and not (rendered and self.picture.samples == 1 and self.picture.report.traced):
             self.picture.count_rays()
         wanted, state.picture_wanted = state.picture_wanted, False
         if wanted and not failed:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import plan
 from ..scene import Scene
-from . import diagnostics, uniforms
+from . import diagnostics, supersampling, uniforms
 from .hit_map import HitArrays, HitMap
 from .post import PostPass
 from .programs import Programs
@@ -59,6 +59,8 @@ class Renderer:
         self.programs = Programs(ctx)
         self.hit_map = HitMap(ctx, self.programs)
         self.reference_map = HitMap(ctx, self.programs)
+        self._sample_map = HitMap(ctx, self.programs)
+        self._mean = supersampling.Mean(ctx)
         self._shade = ShadePass(ctx, self.programs)
         self._views = diagnostics.ViewPass(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
@@ -101,6 +103,36 @@ class Renderer:
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, ray_plan.method, ray_plan.reasons)
+
+    def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
+        """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd number of them:
+        supersampling.py).
+
+        Meant for a picture that `render` has drawn sharp: the first call takes the rays that it left.
+
+        Returns:
+            How many rays a pixel there are now.
+
+        Raises:
+            As `render`; ValueError: the scene asks for a view, whose false colours have no mean.
+        """
+        scene, ray_plan = plan.resolved(scene), plan.plan(scene)
+        if diagnostics.is_on(scene):
+            raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; only 'picture' is drawn finer")
+        self._mean.begin((scene, time, size))
+        shift = supersampling.place(self._mean.count)
+        if self._mean.count == 0:
+            self._trace(scene, ray_plan, time, size, shift)
+            hit_map = self.hit_map
+        else:
+            hit_map = self._sample_map
+            hit_map.trace(scene, ray_plan, self._bind(scene, ray_plan, time, size, shift), size)
+        self._shade_into(scene, ray_plan, size, hit_map)
+        mean = self._mean.add(self._radiance_array())
+        self._post.draw(scene, ray_plan, mean, target or self._own_picture(size), (0, 0, *size))
+        if self._mean.count == supersampling.MOST_SAMPLES:
+            self._sample_map.release()
+        return self._mean.count
 
     def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None, *, progressive: bool = False) -> float:
         """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""
@@ -171,6 +203,8 @@ class Renderer:
         """Gives the GL objects back."""
         self.hit_map.release()
         self.reference_map.release()
+        self._sample_map.release()
+        self._mean.release()
         self._views.release()
         self._shade.release()
         self._post.release()
@@ -192,13 +226,13 @@ class Renderer:
         ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
         return self.hit_map.trace(scene, ray_plan, ray_bytes, size, progressive=progressive) or traced_reference
 
-    def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int]) -> None:
+    def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], hit_map: HitMap | None = None) -> None:
         if self._radiance is None or self._radiance.size != size:
             self._radiance = self._fresh(self._radiance, size, 4, "f2")
         if diagnostics.is_on(scene):
             self._views.draw(scene, ray_plan, self.hit_map, self.reference_map, self._radiance)
         else:
-            self._shade.draw(scene, ray_plan, self.hit_map, self._radiance)
+            self._shade.draw(scene, ray_plan, hit_map or self.hit_map, self._radiance)
 
     def _own_picture(self, size: tuple[int, int]) -> moderngl.Framebuffer:
         if self._picture is None or self._picture.size != size:
@@ -225,7 +259,7 @@ class Renderer:
 
     def _radiance_array(self) -> np.ndarray:
         width, height = self._radiance.size
-        return np.frombuffer(self._radiance.color_attachments[0].read(), np.float16).reshape(height, width, 4).astype(np.float64)
+        return np.frombuffer(self._radiance.color_attachments[0].read(), np.float16).reshape(height, width, 4).astype(np.float32)
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:

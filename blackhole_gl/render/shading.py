@@ -107,7 +107,7 @@ class ShadePass:
 
     def _sorted_pixels(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.Texture:
         size = hit_map.textures[0].size
-        key = (hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
+        key = (id(hit_map), hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
         if key == self._classes_key:
             return self._depth
         if self._classes is None or self._classes.size != size:

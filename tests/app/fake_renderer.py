@@ -50,6 +50,7 @@ class FakeRenderer:
         self.hit_map = FakeHitMap()
         self.fail = None
         self.us_per_pixel = 0.0
+        self.finer, self.finer_of = 0, None
 
     def render(self, scene, time, size, target=None, *, measure=False, progressive=False):
         if self.fail is not None:
@@ -58,6 +59,13 @@ class FakeRenderer:
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
         return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0)
+
+    def render_finer(self, scene, time, size, target=None):
+        self.finer = self.finer + 1 if self.finer_of == (scene, time, size) else 1
+        self.finer_of = scene, time, size
+        target.use()
+        target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
+        return self.finer
 
     def hits(self):
         return Hits()

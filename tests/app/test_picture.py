@@ -10,6 +10,7 @@ from blackhole_gl import plan
 from blackhole_gl.app.picture import Area, Picture
 from blackhole_gl.app.preparation import Preparation
 from blackhole_gl.render.programs import Unready
+from blackhole_gl.render.supersampling import MOST_SAMPLES
 from blackhole_gl.scene import Scene
 from tests.app.fake_renderer import FakeRenderer
 
@@ -146,3 +147,63 @@ def test_another_scene_is_not_drawn_by_an_earlier_method(moving, values):
     while not moving.picture.is_current:
         moving.draw()
     assert moving.renderer.calls[-1][0] == moving.scene
+
+
+@pytest.fixture
+def resting(ctx):
+    """A picture that nothing happens to, drawn by a renderer of flat colours."""
+    picture = Picture(ctx, FakeRenderer(ctx), Preparation(lambda scene, size: None))
+
+    def draw(scene=Scene(), time=0.0):
+        return picture.update(scene, time, Area(0, 0, 64, 36), moving=False, camera_moving=False)
+
+    while not picture.is_current:
+        draw()
+    return picture, draw
+
+
+def test_a_resting_picture_takes_more_rays_a_pixel_and_then_no_more(resting):
+    picture, draw = resting
+    drawn = 0
+    while not picture.is_final:
+        assert draw()
+        drawn += 1
+        assert picture.samples == drawn
+    assert drawn == MOST_SAMPLES
+    calls = len(picture.renderer.calls)
+    assert not draw() and len(picture.renderer.calls) == calls
+
+
+def test_what_moves_again_begins_with_one_ray_a_pixel(resting):
+    picture, draw = resting
+    draw(), draw(), draw()
+    assert picture.samples == 3
+    assert draw(time=1.0) and picture.samples == 1 and not picture.is_final
+    draw(time=1.0), draw(time=1.0)
+    assert picture.samples == 2
+
+
+def test_a_view_in_false_colours_has_one_ray_a_pixel(resting):
+    picture, draw = resting
+    view = Scene().with_values({"post.view": "steps"})
+    while not picture.is_final:
+        draw(view)
+    assert picture.samples == 1 and picture.renderer.finer == 0
+
+
+def test_where_one_more_ray_takes_long_the_window_answers_first(resting, monkeypatch):
+    """Half a second in which no key is heard is too long for a smoother edge."""
+    picture, draw = resting
+    plain = picture.renderer.render_finer
+    monkeypatch.setattr(picture.renderer, "render_finer", lambda *given, **named: (clock.sleep(0.6), plain(*given, **named))[1])
+    draw()
+    assert picture.is_final and picture.samples == 1
+
+
+def test_what_failed_is_not_drawn_finer(resting):
+    picture, draw = resting
+    draw()
+    picture.renderer.fail = RuntimeError("out of order")
+    with pytest.raises(RuntimeError):
+        draw(time=1.0)
+    assert not draw(time=1.0), "nor tried again"
