@@ -20,7 +20,8 @@ from .resolution import COARSEST, Resolution
 # what compiling began, and takes its time however few the pixels. After that nothing is missing.
 _REHEARSALS = (False, True)  # the one with fewer programs first
 
-# A picture at rest that takes longer than this for one more ray a pixel is left as it is, in seconds: meanwhile the window answers nothing.
+# A picture at rest that takes longer than this for one more ray a pixel, two times running, is left as it is, in seconds: meanwhile the window answers
+# nothing. Once is no more than a first draw, or another program's doing.
 _LONGEST_SAMPLE_S = 0.5
 
 # The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
@@ -143,6 +144,7 @@ class Picture:
         self._made_of: tuple | None = None
         self._resolution = Resolution()
         self._most_samples = 1  # that it is to have at rest
+        self._sample_took_s = 0.0  # the last one
         self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
         self._took_ms = 0.0
         self._rehearsed = 0  # of `_REHEARSALS`, and one more when a whole picture has followed
@@ -234,7 +236,9 @@ class Picture:
         begun = clock.perf_counter()
         self.samples = self.renderer.render_finer(scene, time, size, target=self._spare_of(size))
         self._shown, self._spare = self._spare, self._shown
-        if clock.perf_counter() - begun > _LONGEST_SAMPLE_S:
+        took, before = clock.perf_counter() - begun, self._sample_took_s
+        self._sample_took_s = took
+        if min(took, before) > _LONGEST_SAMPLE_S:
             self._most_samples = self.samples
         return True
 
