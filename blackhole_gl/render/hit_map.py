@@ -232,6 +232,7 @@ class HitMap:
         while len(self._pool) < count:
             texture = self._ctx.texture(size, 4, dtype="f4")
             texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            texture.repeat_x = texture.repeat_y = False
             self._pool.append(texture)
         self.textures = self._pool[:count]
         if count not in self._targets:

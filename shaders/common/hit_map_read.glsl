@@ -44,11 +44,20 @@ Hits in_world(Hits hits) {
     return hits;
 }
 
-ivec2 place_in_map(ivec2 pixel) {
-    return clamp(pixel, ivec2(0), textureSize(hits0, 0) - 1);
+// The texel of a pixel, clamped to the picture; `size` in pixels. All are the nearest: software renderers fetch that sooner than by texelFetch.
+vec2 place_in_map(ivec2 pixel, ivec2 size) {
+    return (vec2(pixel) + 0.5) / vec2(size);
+}
+
+vec4 texel_of(sampler2D hits, ivec2 pixel) {
+    return textureLod(hits, place_in_map(pixel, textureSize(hits, 0)), 0.0);
 }
 
 #if HIT_MAP_REFINED
+uint cell_of(ivec2 pixel) {
+    return textureLod(cells, place_in_map(pixel, textureSize(cells, 0) * REFINE_STEP), 0.0).r;
+}
+
 // Where the coarse textures hold the pixel, for filtering.
 vec2 place_in_grid(ivec2 pixel) {
     return (vec2(pixel) / float(REFINE_STEP) + 1.5) / vec2(textureSize(coarse0, 0));
@@ -97,19 +106,18 @@ Hits interpolated_hits(uint cell, ivec2 pixel) {
 #if HIT_MAP_REFINED < 2
 // As traced, in the frame of the camera's meridian.
 Hits stored_hits(ivec2 pixel) {
-    ivec2 place = place_in_map(pixel);
     vec4 t1 = vec4(0.0), t2 = vec4(0.0);
 #if HIT_MAP_REFINED
-    uint cell = texelFetch(cells, place / REFINE_STEP, 0).r;
-    if (!cell_has_own_rays(cell)) return interpolated_hits(cell, place);
+    uint cell = cell_of(pixel);
+    if (!cell_has_own_rays(cell)) return interpolated_hits(cell, pixel);
 #endif
 #if ORDERS > 0
-    t1 = texelFetch(hits1, place, 0);
+    t1 = texel_of(hits1, pixel);
 #endif
 #if ORDERS > 1
-    t2 = texelFetch(hits2, place, 0);
+    t2 = texel_of(hits2, pixel);
 #endif
-    return unpacked_hits(texelFetch(hits0, place, 0), t1, t2);
+    return unpacked_hits(texel_of(hits0, pixel), t1, t2);
 }
 
 Hits fetch_hits(ivec2 pixel) {
@@ -119,14 +127,12 @@ Hits fetch_hits(ivec2 pixel) {
 
 // Fate and direction only.
 Hits fetch_escape(ivec2 pixel) {
-    ivec2 place = place_in_map(pixel);
 #if HIT_MAP_REFINED == 0
-    vec4 t0 = texelFetch(hits0, place, 0);
+    vec4 t0 = texel_of(hits0, pixel);
 #elif HIT_MAP_REFINED == 1
-    bool own = cell_has_own_rays(texelFetch(cells, place / REFINE_STEP, 0).r);
-    vec4 t0 = own ? texelFetch(hits0, place, 0) : interpolated_escape(place);
+    vec4 t0 = cell_has_own_rays(cell_of(pixel)) ? texel_of(hits0, pixel) : interpolated_escape(pixel);
 #else
-    vec4 t0 = interpolated_escape(place);
+    vec4 t0 = interpolated_escape(pixel);
 #endif
     return in_world(unpacked_hits(t0, vec4(0.0), vec4(0.0)));
 }
@@ -134,6 +140,6 @@ Hits fetch_escape(ivec2 pixel) {
 #if ORDERS > 0
 // Relative drift of what the ray's model conserves, −1 where nothing was measured: only kept for the view that shows it.
 float fetch_drift(ivec2 pixel) {
-    return texelFetch(hits1, place_in_map(pixel), 0).w;
+    return texel_of(hits1, pixel).w;
 }
 #endif
