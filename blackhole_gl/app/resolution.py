@@ -28,7 +28,8 @@ PIXELS_SHARE = 1.0 / 6.0
 """Of all that does not depend on the size, what pixels may always cost. Where that alone fills the frame, fewer pixels cannot bring the frame rate
 back: they would blur the picture for a gain that nobody sees."""
 
-_LEAVE = 0.9  # steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop
+# Steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop. A resting picture must trace all its rays anew.
+_LEAVE = {True: 0.9, False: 2.0}
 _SETTLING_S = 2.0  # in which a movement finds its step, whatever the noise
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
 _MOST_OTHER = 0.5  # of a frame that is not the picture's: waiting for the screen cannot be told from work, and would keep pictures coarse
@@ -119,7 +120,7 @@ class Resolution:
         self._glide = wanted + (self._glide - wanted) * math.exp(-elapsed / _GLIDE_S) if goes_on else wanted
         self._lasted = self._lasted + elapsed if goes_on else 0.0
         # The less of a picture's cost is its pixels', the more steps the noise of the whole is worth, and the less a step changes the frame's time.
-        leave = _LEAVE * (1.0 + constant / budget if self._lasted > _SETTLING_S else 1.0)
+        leave = _LEAVE[camera_moving] * (1.0 + constant / budget if self._lasted > _SETTLING_S else 1.0)
         if abs(self._glide - self._step[camera_moving]) > leave:
             self._step[camera_moving] = round(self._glide)
         return 2.0 ** (-self._step[camera_moving] / STEPS_PER_OCTAVE)

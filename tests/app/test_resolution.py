@@ -95,6 +95,12 @@ def test_the_scale_does_not_hop(full_ms):
     assert hops(scales) <= 1
 
 
+@pytest.mark.parametrize("full_ms", [90.0, 110.0, 130.0])
+def test_a_resting_picture_keeps_its_size_on_a_busy_machine(full_ms):
+    """Every step would trace the whole picture anew. Forty per cent of noise is two steps; once it must find its size."""
+    assert hops(Machine(full_ms, noise=0.4).run(seconds=30.0, camera_moving=False)) <= 1
+
+
 def test_one_slow_frame_changes_nothing():
     machine = Machine(120.0)
     before = machine.run(seconds=3.0)[-1]
