@@ -1,10 +1,10 @@
 """How long the frames of the real window take while its camera rests or moves, from picture to picture, and how coarse they are drawn.
 
-    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--no-display]
+    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--settle 3] [--no-display]
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30). Each goes on for 3 s before frames count. A figure stands for the machine and its screen together: on a display with vertical
+out to 30). Each goes on for `--settle` seconds before frames count. A figure stands for the machine and its screen together: on a display with vertical
 synchronisation no frame is shorter than the screen's.
 """
 
@@ -21,7 +21,6 @@ from blackhole_gl.app import commands, picture, window
 from blackhole_gl.app.state import WindowState
 from imgui_bundle import hello_imgui
 
-SETTLE_S = 3.0  # programs, and the scale that the window finds
 ORBIT_DEG = (60.0, 100.0)
 ZOOM_RS = (6.0, 30.0)
 
@@ -71,9 +70,9 @@ class Run:
 class Conductor:
     """Leads the window through the runs and closes it after the last."""
 
-    def __init__(self, runs: list[Run], seconds: float):
+    def __init__(self, runs: list[Run], seconds: float, settle: float):
         self._todo: Iterator[Run] = iter(runs)
-        self._seconds, self._keys = seconds, motions()
+        self._seconds, self._settle, self._keys = seconds, settle, motions()
         self._run: Run | None = None
         self._until = 0.0
 
@@ -86,7 +85,7 @@ class Conductor:
     def saw(self, shown: picture.Picture) -> None:
         """A picture was drawn."""
         now = clock.perf_counter()
-        if self._run and shown.is_current and now > self._until - self._seconds:
+        if self._run and (shown.is_current or shown.bridges) and now > self._until - self._seconds:
             self._run.stamps.append(now)
             self._run.scales.append(shown.scale)
 
@@ -99,7 +98,7 @@ class Conductor:
             return
         state.show_panel = False
         state.change({"playback.target_fps": self._run.target_fps})
-        self._until = clock.perf_counter() + SETTLE_S + self._seconds
+        self._until = clock.perf_counter() + self._settle + self._seconds
 
 
 def conduct(conductor: Conductor) -> None:
@@ -123,13 +122,14 @@ def main() -> None:
     parser.add_argument("--preset", action="append")
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--seconds", type=float, default=20.0, help="of each run that count")
+    parser.add_argument("--settle", type=float, default=3.0, help="seconds before that: for programs, and for the scale that the window finds")
     parser.add_argument("--target-fps", type=float, action="append", help="0: full size (default: 0 and 30)")
     parser.add_argument("--motion", action="append", choices=list(motions()), help="(default: all)")
     parser.add_argument("--no-display", action="store_true", help="GLFW's null platform, which presents nothing")
     given = parser.parse_args()
     size = tuple(int(side) for side in given.size.split("x"))
     runs = [Run(motion, target) for target in given.target_fps or (0.0, 30.0) for motion in given.motion or motions()]
-    conduct(Conductor(runs, given.seconds))
+    conduct(Conductor(runs, given.seconds, given.settle))
     print(f"| {given.size} | fps aimed at | frames | median ms | 95 % ms | longest ms | fps | scale | from, to | changes |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
     window.run(presets.load(given.preset or ["kerr"]), null_platform=given.no_display, size=size)
