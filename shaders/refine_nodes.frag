@@ -34,9 +34,9 @@ layout(location = 5) out vec4 bend2_out;
 #endif
 
 // A node and its neighbours: left and right, below and above.
-const ivec2 STAR[5] = ivec2[5](ivec2(0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+const vec2 STAR[5] = vec2[5](vec2(0.0), vec2(-1.0, 0.0), vec2(1.0, 0.0), vec2(0.0, -1.0), vec2(0.0, 1.0));
 
-#define FETCH_STAR(name, hits) vec4 name[5]; for (int i = 0; i < 5; ++i) name[i] = texelFetch(hits, place + STAR[i], 0);
+#define FETCH_STAR(name, hits) vec4 name[5]; for (int i = 0; i < 5; ++i) name[i] = textureLod(hits, (place + STAR[i]) * texel, 0.0);
 
 // Second differences: along x, along y.
 vec4 bend_of(vec2 v[5]) {
@@ -101,7 +101,8 @@ uint kinds_of_crossings(vec2 point[5]) {
 
 void main() {
     // The outermost nodes are no cell's corners, and have no neighbours on one side: they do as the next one does.
-    ivec2 place = clamp(ivec2(gl_FragCoord.xy), ivec2(1), textureSize(hits0, 0) - 2);
+    vec2 size = vec2(textureSize(hits0, 0)), texel = 1.0 / size;
+    vec2 place = clamp(gl_FragCoord.xy, vec2(1.5), size - 1.5);
     vec2 v[5];
     FETCH_STAR(escapes, hits0)
     for (int i = 0; i < 5; ++i)
