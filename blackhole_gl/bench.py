@@ -1,8 +1,8 @@
 """How long frames take on this machine: methods and looks, still and moving, over picture sizes; interleaved, as ratios to the flat frame.
 
 A *still* frame keeps the hit map and lets the disk turn: shade and post. A *moving* one follows a camera that has gone half a degree round and
-half a degree down since the last: trace, shade and post, as the window draws it: refined where the plan refines. Times are by the wall clock with the pipeline drained after each frame; beside
-their median stands the least processor time of the process, which other programs disturb less and which a GPU makes meaningless.
+half a degree down since the last: trace, shade and post, as the window draws it: refined where the plan refines. Times are by the wall clock with the pipeline drained after each frame, the median
+of a few frames in each round, as other programs come in bursts; beside their median stands the least processor time of the process, which other programs disturb less and which a GPU makes meaningless.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from .scene import Scene
 SIZES = ((640, 360), (1280, 720), (1920, 1080), (3840, 2160))
 TURN_DEG = 0.5
 YARDSTICK = "flat"
+FRAMES = 3
+"""Frames of each row in a round; their median is the round's."""
 EULER_SIZE = (1280, 720)
 """The size at which E is timed too, in every round of the moving frames."""
 
@@ -150,15 +152,18 @@ def _rows(
             frame = _moved(scene, counted + 2) if motion == "moving" else scene
             for warm in range(1 if motion == "moving" else 3):  # the hit map, and the sky that is kept from the second frame on
                 renderer.render(frame, 0.01 * warm, size, progressive=motion == "moving")
-            if motion == "moving":
-                frame = _moved(frame, 1)
-            renderer.ctx.finish()
-            start = clock.process_time()
-            report = renderer.render(frame, 0.1 * (counted + 2), size, measure=True, progressive=motion == "moving")
+            taken = []
+            for number in range(FRAMES):
+                seen = _moved(frame, number + 1) if motion == "moving" else frame
+                renderer.ctx.finish()
+                start = clock.process_time()
+                report = renderer.render(seen, 0.1 * (FRAMES * counted + number + 10), size, measure=True, progressive=motion == "moving")
+                if counted >= 0:
+                    processor[name].append(1e3 * (clock.process_time() - start))
+                taken.append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
             if counted >= 0:
-                processor[name].append(1e3 * (clock.process_time() - start))
                 own_rays[name] = float(renderer.hit_map.own_rays().mean())
-                wall[name].append((report.trace_ms + report.shade_ms + report.post_ms, report.trace_ms, report.shade_ms, report.post_ms))
+                wall[name].append(tuple(map(statistics.median, zip(*taken))))
     found = []
     for name, scene in compared.items():
         whole, *parts = (statistics.median(column) for column in zip(*wall[name]))
