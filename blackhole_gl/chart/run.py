@@ -17,6 +17,7 @@ from .scenes import ChartScene, chart_scenes
 from .survey import survey
 from .validation import validate
 from .work import Kept
+from .work_costs import by_work
 
 _OUTSIDE = "accuracy_outside.csv"
 
@@ -51,7 +52,7 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     best = finest(renderer, scenes)
     progress(0.99, "pictures and page")
     if plan_table is not None:
-        table.write_contract(plan_table, rows, where)
+        table.write_contract(plan_table, by_work(rows), where)
         choice.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
         choice.forget_choices()
     chosen = plan_choices(rows, scenes)
