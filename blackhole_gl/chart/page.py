@@ -91,7 +91,7 @@ def _methods(found: Findings) -> str:
                 f"{short(row.crossing_r_99)} | {short(row.g_99)} | {row.evaluations:.0f} | {short(row.cost_flat_ratio)} |"
             )
     if found.chosen:
-        lines += ["", "The plan's own choice, from the stored table:", "", "| scene | method | step | 99 % [pixels] | cost / flat |", "| --- | --- | --- | --- | --- |"]
+        lines += ["", "The plan's own choice, from the stored table. Costs there lie on each method's line of cost against evaluations, as single ones scatter by a tenth and more; below stand those measured:", "", "| scene | method | step | 99 % [pixels] | cost / flat |", "| --- | --- | --- | --- | --- |"]
         pixel = {item.name: item.pixel for item in found.scenes}
         lines += [f"| {n} | {r.method} | {short(r.setting)} | {short(r.direction_99 / pixel[n])} | {short(r.cost_flat_ratio)} |" for n, r in found.chosen.items()]
     return "\n".join(lines) + "\n"
