@@ -13,7 +13,7 @@ from typing import Iterator
 
 from . import catalogue, observer
 from .resources import assets_dir
-from .scene import Scene
+from .scene import Rays, Scene
 
 AUTO = "auto"
 
@@ -187,15 +187,21 @@ def is_open(scene: Scene) -> bool:
 
 def predictions(scene: Scene) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states."""
-    near = _nearest_scenes(scene)
+    for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0):
+        yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost)
+
+
+@lru_cache(maxsize=64)
+def _candidates(near: tuple[str, ...], rays: Rays, spins: bool) -> tuple[tuple[Method, tuple[Measured, ...]], ...]:
+    """Methods that fit `rays` round a hole that `spins` or not, each with its rows in the measured scenes `near`, in their order.
+
+    Kept, as every frame of a moving camera is a scene to choose for.
+    """
     by_method: dict[Method, list[Measured]] = {}
     for row in _measured_in(near):
-        if not row.refined and _fits(scene, row):
+        if not row.refined and _fits(rays, spins, row):
             by_method.setdefault(row.method, []).append(row)
-    for method, rows in by_method.items():
-        if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows):
-            nearest = next(row for row in rows if row.scene == near[0])
-            yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), nearest.cost)
+    return tuple((method, tuple(rows)) for method, rows in by_method.items() if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows))
 
 
 @lru_cache(maxsize=64)
@@ -269,7 +275,7 @@ def measurements() -> tuple[Measured, ...]:
 
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
-    for kept in (_by_scene, _nearest_scenes, choose, refinement):
+    for kept in (_by_scene, _nearest_scenes, _candidates, choose, refinement):
         kept.cache_clear()
 
 
@@ -334,10 +340,9 @@ def _stated(scene: Scene, best: Prediction) -> Scene:
     return _plainly(scene.with_values(values))
 
 
-def _fits(scene: Scene, row: Measured) -> bool:
-    rays = scene.rays
+def _fits(rays: Rays, spins: bool, row: Measured) -> bool:
     model = catalogue.plug_ins("ray_model")[row.model]
-    if rays.model == AUTO and (not model.traits["spins"] and scene.hole.spin != 0.0 or model.traits["space_time"] == "flat"):
+    if rays.model == AUTO and (spins and not model.traits["spins"] or model.traits["space_time"] == "flat"):
         return False
     angular = model.traits.get("marches_in") == "mino"
     step, stated_step = (row.step_angle, rays.step_angle) if angular else (row.step_length, rays.step_length)
