@@ -41,7 +41,10 @@ class WarmUp:
     def close(self) -> None:
         """Ends the process; what it is at is thrown away."""
         if self._worker is not None:
-            self._worker.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():  # the window has no other
+                process.terminate()
+            # Waited for, which takes no time now: an executor left to itself may trip over its closed pipe when the interpreter ends.
+            self._worker.shutdown(cancel_futures=True)
             self._worker = None
 
 

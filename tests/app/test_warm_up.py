@@ -1,0 +1,29 @@
+"""The other process: that it ends with the window, and without a word."""
+
+import subprocess
+import sys
+
+_SCRIPT = """
+import multiprocessing, sys, time
+from blackhole_gl.app.warm_up import WarmUp
+from blackhole_gl.scene import Scene
+
+if __name__ == "__main__":
+    warm_up = WarmUp()
+    warm_up.start()
+    future = warm_up.submit(Scene(), (64, 36))
+    time.sleep(float(sys.argv[1]))
+    began = time.perf_counter()
+    warm_up.close()
+    assert time.perf_counter() - began < 2.0, "closing waits for nothing; 2 s are for a busy machine"
+    assert future.done() and not multiprocessing.active_children()
+"""
+
+
+def test_closing_in_the_middle_of_its_work_ends_it_quietly(tmp_path):
+    """In a process of its own: what an executor left to itself complains of comes when the interpreter ends."""
+    script = tmp_path / "close.py"
+    script.write_text(_SCRIPT)
+    for seconds in ("0", "0.5"):
+        done = subprocess.run([sys.executable, str(script), seconds], capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stderr) == (0, "")
