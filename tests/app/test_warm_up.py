@@ -1,7 +1,11 @@
 """The other process: that it ends with the window, and without a word."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
+
+import blackhole_gl
 
 _SCRIPT = """
 import multiprocessing, sys, time
@@ -24,6 +28,7 @@ def test_closing_in_the_middle_of_its_work_ends_it_quietly(tmp_path):
     """In a process of its own: what an executor left to itself complains of comes when the interpreter ends."""
     script = tmp_path / "close.py"
     script.write_text(_SCRIPT)
+    environment = {**os.environ, "PYTHONPATH": str(Path(blackhole_gl.__file__).parents[1])}
     for seconds in ("0", "0.5"):
-        done = subprocess.run([sys.executable, str(script), seconds], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, str(script), seconds], capture_output=True, text=True, timeout=60, env=environment)
         assert (done.returncode, done.stderr) == (0, "")
