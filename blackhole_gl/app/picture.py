@@ -83,9 +83,9 @@ class RayFigures:
     unresolved: int
 
     @classmethod
-    def of(cls, hits: Any) -> RayFigures:
-        """The figures of a `HitArrays`."""
-        return cls(float(np.mean(hits.steps)), int(np.count_nonzero(hits.fate == 0)))
+    def of(cls, fate: np.ndarray, steps: np.ndarray) -> RayFigures:
+        """The figures of rays by what became of them, as in `HitArrays`, and the steps they took."""
+        return cls(float(np.mean(steps)), int(np.count_nonzero(fate == 0)))
 
 
 @dataclass(frozen=True)
@@ -275,9 +275,9 @@ class Picture:
             self._resolution.record(self.scale, self._took_ms, traced=report.traced)
 
     def count_rays(self) -> None:
-        """Brings `rays` up to date with the hit map. It is read back whole, so this is for frames in which no rays are traced."""
+        """Brings `rays` up to date with the hit map. A part of it is read back, so this is for frames in which no rays are traced."""
         if self._rays_stale and self.is_sharp:
-            self.rays = RayFigures.of(self.renderer.hits())
+            self.rays = RayFigures.of(*self.renderer.fates_and_steps())
             self._rays_stale = False
 
     def read_rgb8(self) -> np.ndarray:

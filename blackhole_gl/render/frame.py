@@ -195,6 +195,10 @@ class Renderer:
         """Scene-referred radiance of the last frame as float32 (height, width, 3), top row first."""
         return self._radiance_array()[::-1, :, :3].astype(np.float32)
 
+    def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
+        """What became of the rays of the last frame, and the steps they took, each as int (height, width); the hit map has to be sharp."""
+        return self.hit_map.fates_and_steps()
+
     def hits(self) -> HitArrays:
         """The hit map of the last frame."""
         return self.hit_map.read()

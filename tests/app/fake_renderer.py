@@ -17,13 +17,6 @@ class Report:
     reasons: tuple = ("it is quick",)
 
 
-class Hits:
-    """As `blackhole_gl.render.hit_map.HitArrays`."""
-
-    fate = np.ones((2, 2), int)
-    steps = np.full((2, 2), 10)
-
-
 class FakePrograms:
     """Programs that an edit of a shader would change; a test puts mistakes in."""
 
@@ -67,5 +60,5 @@ class FakeRenderer:
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
         return self.finer
 
-    def hits(self):
-        return Hits()
+    def fates_and_steps(self):
+        return np.ones((2, 2), int), np.full((2, 2), 10)

@@ -119,3 +119,12 @@ def test_a_still_in_tiles_is_the_frame(renderer: Renderer) -> None:
     frame = renderer.read_rgb8().astype(int)
     renderer.render_still(scene, 0.0, size)
     np.testing.assert_allclose(renderer.read_rgb8().astype(int), frame, atol=1)
+
+
+def test_fates_and_steps_are_those_of_the_whole_map(renderer: Renderer) -> None:
+    renderer.render(presets.load(["kerr"]), 0.0, SIZE)
+    hits = renderer.hits()
+    fate, steps = renderer.fates_and_steps()
+    np.testing.assert_array_equal(fate, hits.fate)
+    np.testing.assert_array_equal(steps, hits.steps)
+    assert set(np.unique(fate)) == {1, 2} and steps.min() > 0
