@@ -22,8 +22,8 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "stability.md"
 TABLE = ROOT / "tests" / "stability" / "verdicts.csv"
 
-DEFAULT_RAYS, OTHER_RAYS = 1_000_000, 2_500
-"""Rays of a sweep through a model's default method, and through any other."""
+DEFAULT_RAYS = 1_000_000
+"""Rays of a sweep through a model's default method."""
 
 
 Table = dict[tuple[str, str], stability.Outcome]
@@ -39,7 +39,7 @@ def measure(renderer: Renderer, rays: int, full: bool, only: str, old: Table, ke
     every = stability.methods()
     for number, method in enumerate(every):
         wanted = stability.is_default(method) if only == "default" else only in method.name
-        count = rays if stability.is_default(method) else min(rays, OTHER_RAYS)
+        count = rays if stability.is_default(method) else min(rays, stability.OTHER_SWEEP_RAYS)
         due = [case for case in CASES if wanted or (case.key, method.name) not in old]
         found |= {(case.key, method.name): stability.run(renderer, case, method, count) if case in due else old[case.key, method.name] for case in CASES}
         if due:

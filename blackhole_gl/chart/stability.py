@@ -215,6 +215,10 @@ def measured_edge(renderer: Renderer, scene: Scene, chi: np.ndarray) -> tuple[np
     return 0.5 * (low + high), unresolved
 
 
+OTHER_SWEEP_RAYS = 16_000
+"""Rays of a sweep through a method that is not its model's default, on the page and wherever it is checked: another number means other scenes."""
+
+
 def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False, seed: int = 9) -> Outcome:
     """`rays` random rays in random scenes: all finite, all with a fate; and for exact models the right one, by the closed form of the fate."""
     total = unresolved = bad = wrong = 0
@@ -245,7 +249,7 @@ def random_scenes(method: Method, rays: int, artistic: bool, seed: int) -> Itera
     """Scenes over the whole range of hole, camera and steps, each with at most 2000 random local directions, `rays` in all."""
     rng = np.random.default_rng(seed)
     base = presets.load(["reference"], chosen(method))
-    per_scene = max(1, min(2000, rays // 16))
+    per_scene = max(1, min(2000, rays // 64))
     for _ in range(-(-rays // per_scene)):
         spin = float(rng.choice([0.0, 0.9999, -0.9999, *rng.uniform(-0.9999, 0.9999, 5)])) if traits(method)["spins"] else 0.0
         inclination = float(rng.choice([0.0, 90.0, 180.0, 89.99, *np.degrees(np.arccos(rng.uniform(-1.0, 1.0, 12)))]))

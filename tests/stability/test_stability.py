@@ -133,7 +133,7 @@ def test_what_skipping_the_observers_frame_would_cost(distance: float, excess: f
 def _difference(renderer: Renderer, case, method: stability.Method) -> str:
     """How a new run of a cell differs from the stored one; empty when it does not. Degraded and failed count alike: drivers round in their own ways."""
     stored = STORED[case.key, method.name]
-    found = stability.run(renderer, case, method, SWEEP_RAYS)
+    found = stability.run(renderer, case, method, SWEEP_RAYS if stability.is_default(method) else stability.OTHER_SWEEP_RAYS)
     if stability.NOT_APPLICABLE in (stored.verdict, found.verdict):
         same = stored.verdict == found.verdict
     elif case.measure == "sweep" and stored.verdict != stability.FINE:
