@@ -129,7 +129,7 @@ class Playback:
     """How scene time runs in the window."""
 
     rate: float = number(4.0, 0.0, 100.0, "(r_s/c)/s", "Scene time that passes in one second.")
-    target_fps: float = number(30.0, 0.0, 120.0, "fps", "Frame rate that a moving camera holds by drawing fewer pixels; a resting one before a turning disk keeps half of it. At rest every pixel is drawn. 0: off, always full resolution.")
+    target_fps: float = number(30.0, 0.0, 120.0, "fps", "Frame rate that a moving camera holds by drawing fewer pixels; a resting one before a turning disk keeps about half of it. At rest every pixel is drawn. 0: off, always full resolution.")
 
 
 @dataclass(frozen=True)

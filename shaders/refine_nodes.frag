@@ -8,7 +8,6 @@
 #defines
 #blocks
 #include "common/constants.glsl"
-#include "common/hits.glsl"
 #include "common/escape_chart.glsl"
 #include "common/node_kinds.glsl"
 

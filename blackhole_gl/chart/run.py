@@ -10,6 +10,7 @@ from ..output.files import write_whole
 from ..render.frame import Renderer
 from ..scene import Scene
 from . import critical, page, pictures, sizes, table
+from .cost_lines import by_work
 from .finest import finest
 from .measure import Row
 from .methods import Method
@@ -17,7 +18,6 @@ from .scenes import ChartScene, chart_scenes
 from .survey import survey
 from .validation import validate
 from .work import Kept
-from .work_costs import by_work
 
 _OUTSIDE = "accuracy_outside.csv"
 

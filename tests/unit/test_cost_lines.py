@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.chart.measure import Row
-from blackhole_gl.chart.work_costs import by_work
+from blackhole_gl.chart.cost_lines import by_work
 
 EMPTY = Row(**{item.name: "" if item.type == "str" else 0 if item.type == "int" else math.nan for item in fields(Row)})
 
