@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields as record_fields, replace
 from functools import lru_cache
+from operator import attrgetter
 from types import MappingProxyType
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping
 
 from . import catalogue
 from .fields import Field, SceneError, Value, nearest_key
@@ -155,11 +156,8 @@ class Scene:
         Raises:
             SceneError: no such key.
         """
-        item = _field(key)
-        if key in _core_fields():
-            section, name = key.split(".")
-            return getattr(getattr(self, section), name)
-        return self.parameters.get(key, item.default)
+        getter = _getters().get(key)
+        return getter(self) if getter else self.parameters.get(key, _field(key).default)
 
     def with_values(self, values: Mapping[str, Any]) -> Scene:
         """This scene with `values` (dotted key → value) put in.
@@ -213,6 +211,12 @@ def _core_fields() -> Mapping[str, Field]:
             key = f"{section.name}.{item.name}"
             found[key] = Field(key, default=item.default, options=options, **facts)
     return MappingProxyType(found)
+
+
+@lru_cache(maxsize=None)
+def _getters() -> Mapping[str, Callable[[Scene], Value]]:
+    """What reads the value of each of the records' own fields. Every frame asks for all of them."""
+    return {key: attrgetter(key) for key in _core_fields()}
 
 
 def _field(key: str) -> Field:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import time as clock
 from collections import OrderedDict
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Mapping, Sequence
 
@@ -28,6 +30,21 @@ class Unready(RuntimeError):
     """A program is still missing, and compiling it was left to a later frame: see `Programs.deadline`."""
 
 
+@dataclass(frozen=True)
+class _Structure:
+    """What a scene and its plan ask of a program's text: (slot, paths) and (switch, value) pairs."""
+
+    chosen: tuple[tuple[str, tuple[str, ...]], ...]
+    switches: tuple[tuple[str, int], ...]
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.chosen, self.switches))
+
+    def __hash__(self) -> int:
+        return self._hash
+
+
 class Programs:
     """The programs of one GL context, kept by the structure of what they draw: a slider never compiles anything.
 
@@ -46,7 +63,7 @@ class Programs:
         self.compiled = 0
         self._composed: OrderedDict[tuple, Composed] = OrderedDict()
         self._triangles: OrderedDict[str, moderngl.VertexArray] = OrderedDict()
-        self._asked: tuple[Scene, RayPlan, tuple] | None = None
+        self._asked: tuple[Scene, RayPlan, _Structure] | None = None
         self._seen = self._times()
 
     def get(self, path: str, scene: Scene, ray_plan: RayPlan, extra: Mapping[str, int] | None = None) -> moderngl.VertexArray:
@@ -59,7 +76,7 @@ class Programs:
             ShaderError: the text cannot be composed or compiled; it names file and line.
             Unready: it would have to be compiled, and the `deadline` has passed.
         """
-        recipe = (path, *self._structure(scene, ray_plan), tuple((extra or {}).items()))
+        recipe = path, self._structure(scene, ray_plan), tuple((extra or {}).items())
         if recipe not in self._composed:
             self._composed[recipe] = self._compose(*recipe)
             if len(self._composed) > _MOST_RECIPES:
@@ -89,14 +106,17 @@ class Programs:
                     self.errors.append(error)
         return self.errors
 
-    def _structure(self, scene: Scene, ray_plan: RayPlan) -> tuple:
-        """(slot, paths) and (switch, value) pairs. A frame asks for several programs with the same two objects: worked out once."""
+    def _structure(self, scene: Scene, ray_plan: RayPlan) -> _Structure:
+        """A frame asks for several programs with the same two objects: worked out once. One that is as before is the same object, found by its identity."""
         if self._asked is None or self._asked[0] is not scene or self._asked[1] is not ray_plan:
-            self._asked = scene, ray_plan, (tuple(_chosen(scene, ray_plan).items()), tuple(uniforms.switches(scene, ray_plan).items()))
+            found = _Structure(tuple(_chosen(scene, ray_plan).items()), tuple(uniforms.switches(scene, ray_plan).items()))
+            same = self._asked is not None and self._asked[2] == found
+            self._asked = scene, ray_plan, self._asked[2] if same else found
         return self._asked[2]
 
-    def _compose(self, path: str, chosen: tuple, switches: tuple, extra: tuple) -> Composed:
-        return compose(self.root, path, chosen=dict(chosen), switches=dict(switches + extra), blocks=lambda words: carry(uniforms.blocks(), words).fragment)
+    def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
+        switches = dict(structure.switches + extra)
+        return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
 
     def _compiled(self, composed: Composed, *, by: float) -> moderngl.VertexArray:
         if composed.text not in self._triangles:

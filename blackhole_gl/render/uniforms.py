@@ -56,8 +56,13 @@ SHADE_BLOCK = Block(
 @lru_cache(maxsize=None)
 def scene_block() -> Block:
     """Every number of the scene by its key with underscores; angles of the camera are left to the host."""
-    members = tuple((item.glsl_name, item.kind) for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg"))
-    return Block("SceneBlock", 2, members)
+    return Block("SceneBlock", 2, tuple((name, fields()[key].kind) for key, name in _number_names()))
+
+
+@lru_cache(maxsize=None)
+def _number_names() -> tuple[tuple[str, str], ...]:
+    """(key, member) of every number that shaders know."""
+    return tuple((key, item.glsl_name) for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg"))
 
 
 def blocks() -> tuple[Block, ...]:
@@ -116,7 +121,7 @@ def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
 
 def scene_values(scene: Scene) -> dict[str, object]:
     """Values of `scene_block`. The spin is that of the model: 0 where the model has none. Infinite distances are given as 0."""
-    values = {fields()[key].glsl_name: value for key, value in scene.values().items()}
+    values = {name: scene.get(key) for key, name in _number_names()}
     values["hole_spin"] = observer.effective_spin(scene)
     if math.isinf(scene.camera.distance):
         values["camera_distance"] = 0.0
@@ -127,13 +132,25 @@ def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": plan.REFINE_STEP}
     found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
-    for key, item in fields().items():
-        name = item.glsl_name.upper()
-        if item.kind == "switch":
-            found[name] = int(scene.get(key))
-        elif item.kind == "choice":
-            found.update({f"{name}_{option.upper()}": int(scene.get(key) == option) for option in item.options})
+    for key, name in _switch_names():
+        found[name] = int(scene.get(key))
+    for key, names in _choice_names():
+        value = scene.get(key)
+        found.update({name: int(value == option) for option, name in names})
     return found
+
+
+@lru_cache(maxsize=None)
+def _switch_names() -> tuple[tuple[str, str], ...]:
+    """(key, ``#define``) of every switch of the scene."""
+    return tuple((key, item.glsl_name.upper()) for key, item in fields().items() if item.kind == "switch")
+
+
+@lru_cache(maxsize=None)
+def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
+    """(key, (option, ``#define``) pairs) of every choice of the scene."""
+    choices = ((key, item) for key, item in fields().items() if item.kind == "choice")
+    return tuple((key, tuple((option, f"{item.glsl_name}_{option}".upper()) for option in item.options)) for key, item in choices)
 
 
 def as_bytes(scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
