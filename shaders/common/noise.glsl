@@ -28,13 +28,17 @@ vec3 hash_vec3(uint h) {
     return vec3(uvec3(h, h >> 10u, h >> 20u) & 1023u) * (1.0 / 1023.0);
 }
 
-// What a lattice corner adds to the noise at the place `offset` from it; `word` is its lattice_word. The gradient is ten bits a component.
+// The gradient of a lattice point by its lattice_word: whole numbers, evenly spread within ±2^31. One round of mixing and a product for each component
+// do: over 64³ points no two components correlate by more than 0.02 at any distance, random ones by 0.01 (tests/shaders/test_noise.py).
+vec3 lattice_gradient(uint word) {
+    return vec3(ivec3((word ^ (word >> 15u)) * uvec3(0x3314ec4bu, 0x2b6361bfu, 0xf595c171u)));
+}
+
+// What a lattice corner adds to the noise at the place `offset` from it.
 float simplex_corner(vec3 offset, uint word) {
     float fall = max(0.5 - dot(offset, offset), 0.0); // 0.5: the kernel ends before the next cell, so no jumps
     fall *= fall;
-    uint h = hash_bits(word);
-    vec3 gradient = vec3(ivec3(uvec3(h, h >> 10u, h >> 20u) & 1023u)) - 511.5;
-    return fall * fall * dot(gradient, offset);
+    return fall * fall * dot(lattice_gradient(word), offset);
 }
 
 // Gradient noise, mean 0, standard deviation 0.24, within −1…1 (0.95 in a million draws), features about 1 apart.
@@ -51,5 +55,5 @@ float simplex_noise(vec3 p, uint seed) {
     uvec3 w1 = uvec3(first) * LATTICE_STEP, w2 = uvec3(both) * LATTICE_STEP;
     float sum = simplex_corner(d0, word) + simplex_corner(d1, word + w1.x + w1.y + w1.z)
               + simplex_corner(d2, word + w2.x + w2.y + w2.z) + simplex_corner(d3, word + (LATTICE_STEP.x + LATTICE_STEP.y + LATTICE_STEP.z));
-    return (130.0 / 1023.0) * sum;
+    return (130.0 / 4294967296.0) * sum;
 }
