@@ -17,13 +17,14 @@ Crossing crossing_of(vec2 point) {
     return crossing;
 }
 
-// Whether the disk may cover any of the pixel: false only where `disk_cover` is 0, and a third of its cost.
+// Whether the disk may cover any of the pixel: a third of the cost of `disk_cover`. False where that is 0, and where it is below a hundredth: beside the
+// line on which crossings run off to infinity every pixel is wide enough to hold the disk.
 bool may_be_covered(Crossing crossing) {
     vec2 change = abs(crossing.right) + abs(crossing.up);
     float reach = 0.5 * (change.x + change.y) + 1e-4 * disk_r_out; // at least the half width below
     float inner = max(disk_r_in - reach, 0.0), outer = disk_r_out + reach;
     float r2 = dot(crossing.point, crossing.point);
-    return r2 > inner * inner && r2 < outer * outer;
+    return r2 > inner * inner && r2 < outer * outer && reach < 100.0 * disk_r_out;
 }
 
 // 0…1: how much of the pixel lies between the disk's edges; 0 without a crossing. The pixel's footprint is a stretch of radii about r;

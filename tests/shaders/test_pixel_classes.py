@@ -40,3 +40,18 @@ def test_disk_and_sky_are_drawn_wherever_there_is_light(renderer: Renderer, view
     disk, sky = _radiance(renderer, {**clear, "sky.enabled": False}), _radiance(renderer, {**clear, "disk.enabled": False})
     assert disk.max() > 0.0 and sky.max() > 0.0
     np.testing.assert_allclose(both, disk + sky, rtol=2e-3, atol=1e-4)
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_what_is_drawn_within_the_disks_bounds_is_the_whole_disk(renderer: Renderer, view: str) -> None:
+    """From the second frame of the same hits on the disk is drawn within its bounds alone. Of a camera elsewhere those bounds say nothing."""
+    first = _radiance(renderer, VIEWS[view])
+    scene = presets.load(["kerr"], VIEWS[view])
+    for _ in range(2):
+        renderer.render(scene, 30.0, SIZE)
+        np.testing.assert_array_equal(renderer.radiance(), first)
+    steeper = {**VIEWS[view], "camera.inclination_deg": 50.0}
+    for _ in range(2):
+        renderer.render(presets.load(["kerr"], steeper), 30.0, SIZE)
+    moved = renderer.radiance()
+    np.testing.assert_array_equal(moved, _radiance(renderer, steeper))
