@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Iterator
 
 import moderngl
@@ -29,14 +30,26 @@ def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
         yield size
 
 
+@dataclass(frozen=True)
+class _Level:
+    """One level of the bloom: its light lies in the lower left `size` pixels of the texture, which may be a little larger."""
+
+    frame: moderngl.Framebuffer
+    size: tuple[int, int]
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        return self.frame.color_attachments[0]
+
+
 class PostPass:
     """Draws shaders/post/*.frag and owns the levels of the bloom and the table of the tone curve. With bloom off it has no levels."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._size: tuple[int, int] | None = None
-        self._down: list[moderngl.Framebuffer] = []
-        self._up: list[moderngl.Framebuffer] = []
+        self._down: list[_Level] = []
+        self._up: list[_Level] = []
         self._tone: moderngl.Framebuffer | None = None
         self._tone_key: tuple | None = None
 
@@ -69,8 +82,8 @@ class PostPass:
 
     def _release_levels(self) -> None:
         for level in (*self._down, *self._up):
-            level.color_attachments[0].release()
-            level.release()
+            level.texture.release()
+            level.frame.release()
         self._down, self._up, self._size = [], [], None
 
     def _tone_table(self, scene: Scene, ray_plan: RayPlan) -> moderngl.Texture:
@@ -87,37 +100,60 @@ class PostPass:
 
     def _bloom(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture) -> moderngl.Texture:
         self._make_levels(radiance.size)
-        source, threshold, centre = radiance, scene.post.bloom_threshold, 0.0
+        source, size, threshold, centre = radiance, radiance.size, scene.post.bloom_threshold, 0.0
         triangle = self._programs.get("post/bloom_down.frag", scene, ray_plan)
         for level in self._down:
             bind_samplers(triangle.program, {"source": source})
-            _set(triangle, source_texel=_texel(source.size), target_texel=_texel(level.size), threshold=threshold, centre_weight=centre)
-            level.use()
-            draw(triangle)
-            source, threshold, centre = level.color_attachments[0], 0.0, 4.0
+            _set(triangle, **_places("source", source, size, level.size), threshold=threshold, centre_weight=centre)
+            _draw_into(level, triangle)
+            source, size, threshold, centre = level.texture, level.size, 0.0, 4.0
         triangle = self._programs.get("post/bloom_up.frag", scene, ray_plan)
         share = scene.post.bloom_spread / (0.4 + scene.post.bloom_spread)
         for own, level in zip(reversed(self._down[:-1]), self._up):
-            bind_samplers(triangle.program, {"wider": source, "level": own.color_attachments[0]})
-            _set(triangle, wider_texel=_texel(source.size), target_texel=_texel(level.size), spread=share)
-            level.use()
-            draw(triangle)
-            source = level.color_attachments[0]
+            bind_samplers(triangle.program, {"wider": source, "level": own.texture})
+            _set(triangle, **_places("wider", source, size, level.size), spread=share)
+            _draw_into(level, triangle)
+            source, size = level.texture, level.size
         return source
 
     def _make_levels(self, size: tuple[int, int]) -> None:
         if size == self._size:
             return
         self._release_levels()
-        self._down = [self._level(level) for level in bloom_sizes(size)]
-        self._up = [self._level(level.size) for level in reversed(self._down[:-1])]
+        first, *others = bloom_sizes(size)
+        self._down = [self._level(first, first), *(self._level(other, _padded(other)) for other in others)]
+        self._up = [self._level(level.size, level.texture.size) for level in reversed(self._down[:-1])]
         self._size = size
 
-    def _level(self, size: tuple[int, int]) -> moderngl.Framebuffer:
-        texture = self._ctx.texture(size, 4, dtype="f2")
+    def _level(self, size: tuple[int, int], allocated: tuple[int, int]) -> _Level:
+        texture = self._ctx.texture(allocated, 4, dtype="f2")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
-        return self._ctx.framebuffer([texture])
+        frame = self._ctx.framebuffer([texture])
+        frame.viewport = 0, 0, *size
+        return _Level(frame, size)
+
+
+def _padded(size: tuple[int, int]) -> tuple[int, int]:
+    """`size`, one pixel more where a side is a power of two: llvmpipe compiles a shader anew, for 0.2 to 0.4 s, when the first texture with such a side
+    comes, and a picture that changes its size meets them all. The first level, a quarter of the picture, is left to whoever chooses the picture's size."""
+    width, height = ({1: 3}.get(side, side + 1) if side & (side - 1) == 0 else side for side in size)
+    return width, height
+
+
+def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: tuple[int, int]) -> dict[str, tuple[float, float]]:
+    """Uniforms by which a pixel of a target of size `target` finds its place in the lower left `size` pixels of `source`."""
+    u, v = _texel(source.size)
+    return {
+        f"{name}_scale": (u * size[0] / target[0], v * size[1] / target[1]),
+        f"{name}_last": (u * (size[0] - 0.5), v * (size[1] - 0.5)),
+        f"{name}_texel": (u, v),
+    }
+
+
+def _draw_into(level: _Level, triangle: moderngl.VertexArray) -> None:
+    level.frame.use()
+    draw(triangle)
 
 
 def _nearest(texture: moderngl.Texture) -> moderngl.Texture:

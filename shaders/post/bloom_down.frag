@@ -6,19 +6,20 @@
 //   others:     to a half, centre weight 4.
 
 uniform sampler2D source;
+uniform vec2 source_scale;    // from a pixel of the target to its place in the source
+uniform vec2 source_last;     // the last place that holds light: the source may be larger than what lies in it
 uniform vec2 source_texel;    // 1 / size of the source
-uniform vec2 target_texel;    // 1 / size of the target
 uniform float centre_weight;
 uniform float threshold;      // radiance below which nothing glows; 0 in all steps but the first
 
 out vec4 colour;
 
 vec3 tap(vec2 place) {
-    return textureLod(source, place, 0.0).rgb;
+    return textureLod(source, min(place, source_last), 0.0).rgb;
 }
 
 void main() {
-    vec2 place = gl_FragCoord.xy * target_texel;
+    vec2 place = gl_FragCoord.xy * source_scale;
     vec2 d = source_texel;
     vec3 sum = centre_weight * tap(place)
              + tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y));

@@ -4,18 +4,19 @@
 
 uniform sampler2D wider;     // the next smaller level, already accumulated
 uniform sampler2D level;     // this level on the way down
-uniform vec2 wider_texel;
-uniform vec2 target_texel;
+uniform vec2 wider_scale;    // from a pixel of the target to its place in `wider`
+uniform vec2 wider_last;     // the last place there that holds light
+uniform vec2 wider_texel;    // 1 / size of `wider`
 uniform float spread;        // share of the wider glow, 0…1
 
 out vec4 colour;
 
 vec3 tap(vec2 place) {
-    return textureLod(wider, place, 0.0).rgb;
+    return textureLod(wider, min(place, wider_last), 0.0).rgb;
 }
 
 void main() {
-    vec2 place = gl_FragCoord.xy * target_texel;
+    vec2 place = gl_FragCoord.xy * wider_scale;
     vec2 d = 0.5 * wider_texel; // four bilinear taps at half a texel make the tent (1 2 1)/4 in each direction
     vec3 tent = 0.25 * (tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y)));
     vec3 own = texelFetch(level, ivec2(gl_FragCoord.xy), 0).rgb;

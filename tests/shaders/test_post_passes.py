@@ -201,6 +201,17 @@ def test_levels_are_never_empty(size: tuple[int, int]) -> None:
     assert levels and all(min(level) >= 1 for level in levels)
 
 
+@pytest.mark.parametrize("size", [(1, 1), (64, 36), (256, 256), (1000, 562)])
+def test_no_level_but_the_first_has_a_side_that_drivers_compile_anew_for(ctx, renderer, size: tuple[int, int]) -> None:
+    post = PostPass(ctx, renderer.programs)
+    post._make_levels(size)
+    assert [level.size for level in post._down] == list(bloom_sizes(size))
+    for level in (*post._down[1:], *post._up[:-1]):
+        assert all(side & (side - 1) for side in level.texture.size)
+        assert all(0 <= there - used <= 2 for there, used in zip(level.texture.size, level.size))
+    post.release()
+
+
 @pytest.mark.parametrize("size", [(1, 1), (3, 5), (17, 1), (33, 47)])
 @pytest.mark.parametrize("bloom", [True, False])
 def test_small_and_odd_pictures(renderer, size: tuple[int, int], bloom: bool) -> None:
