@@ -13,8 +13,8 @@ from .programs import Programs, bind_samplers, draw
 
 
 # Below these depths lie the classes of pixels that may cross the disk, and that may be of the sky (shaders/shade_classes.frag); beyond the
-# others those of flat cells (refine_classes.frag), and those of the sky that may cross the disk once (shade_classes.frag again).
-_DISK, _SKY, _FLAT_SKY, _DISK_ONCE = 0.2, 0.3, 0.6, 0.8
+# last those of flat cells (refine_classes.frag).
+_DISK, _SKY, _FLAT_SKY = 0.2, 0.3, 0.6
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
@@ -38,7 +38,7 @@ class ShadePass:
         self._depth: moderngl.Texture | None = None
         self._classes: moderngl.Framebuffer | None = None
         self._classes_key: tuple | None = None
-        self._disk_boxes: dict[float, Box] = {}  # by the depth that the disk's pixels compare with; empty before the second frame of the same classes
+        self._disk_box: Box | None = None  # not known before the second frame of the same classes
         self._frame: moderngl.Framebuffer | None = None
         self._sky: moderngl.Framebuffer | None = None
         self._sky_key: tuple | None = None
@@ -55,16 +55,10 @@ class ShadePass:
             self._frame.use()
             ctx.enable(moderngl.BLEND)
             ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
-            self._draw_disk(scene, ray_plan, hit_map)
+            disk = self._prepared("shade_disk.frag", scene, ray_plan, hit_map, hit_map.switches())
+            self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.depth_func = "<"
-
-    def _draw_disk(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
-        boxes = self._disk_boxes if hit_map.is_sharp else {}
-        self._draw_classes(self._prepared("shade_disk.frag", scene, ray_plan, hit_map, hit_map.switches()), ">", _DISK, boxes.get(_DISK))
-        if hit_map.is_sharp and ray_plan.orders > 1:
-            once = {**hit_map.switches(), "ORDERS": 1}
-            self._draw_classes(self._prepared("shade_disk.frag", scene, ray_plan, hit_map, once), "<", _DISK_ONCE, boxes.get(_DISK_ONCE))
 
     def _lay_sky(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """The sky into the target. It does not depend on time: where the same one is asked for again it is kept, and copied from then on."""
@@ -87,13 +81,10 @@ class ShadePass:
 
     def _draw_sky(self, frame: moderngl.Framebuffer, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
         self._clear(frame)
-        triangle = self._prepared("shade_sky.frag", scene, ray_plan, hit_map, hit_map.switches())
-        self._draw_classes(triangle, ">", _SKY)
+        self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, hit_map.switches()), ">", _SKY)
         where_flat = hit_map.switches_where_flat()
         if where_flat is not None:
             self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, where_flat), "<", _FLAT_SKY)
-        elif ray_plan.orders > 1:
-            self._draw_classes(triangle, "<", _DISK_ONCE)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -125,7 +116,7 @@ class ShadePass:
         size = hit_map.textures[0].size
         key = (id(hit_map), hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
         if key == self._classes_key:
-            self._disk_boxes = self._disk_boxes or _disk_boxes(self._depth)
+            self._disk_box = self._disk_box or _disk_box(self._depth)
             return self._depth
         if self._classes is None or self._classes.size != size:
             self._release_classes()
@@ -137,7 +128,7 @@ class ShadePass:
         self._ctx.depth_func = "1"  # always
         draw(triangle)
         self._ctx.disable(moderngl.DEPTH_TEST)
-        self._classes_key, self._disk_boxes = key, {}
+        self._classes_key, self._disk_box = key, None
         return self._depth
 
     def _attach(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> None:
@@ -156,7 +147,7 @@ class ShadePass:
                 item.release()
         self._sky, self._frame, self._classes, self._depth = None, None, None, None
         self._classes_key, self._sky_key, self._sky_kept = None, None, False
-        self._disk_boxes = {}
+        self._disk_box = None
 
     def _update_profile(self, scene: Scene) -> None:
         inner, outer = plan.effective_disk_radii(scene)
@@ -170,14 +161,10 @@ class ShadePass:
         self._profile_key = key
 
 
-def _disk_boxes(classes: moderngl.Texture) -> dict[float, Box]:
-    """Where in the picture there are pixels that may cross the disk, by the depth that they compare with. Waits for the GPU."""
+def _disk_box(classes: moderngl.Texture) -> Box:
+    """The smallest that holds all pixels which may cross the disk; of no size where there are none. Waits for the GPU."""
     depth = np.frombuffer(classes.read(), np.float32).reshape(classes.height, classes.width)
-    return {_DISK: _box(depth < _DISK), _DISK_ONCE: _box(depth > _DISK_ONCE)}
-
-
-def _box(pixels: np.ndarray) -> Box:
-    """The smallest that holds all of `pixels`, bool (height, width); of no size where there are none."""
+    pixels = depth < _DISK
     rows, columns = np.flatnonzero(pixels.any(axis=1)), np.flatnonzero(pixels.any(axis=0))
     if not rows.size:
         return 0, 0, 0, 0
