@@ -2,7 +2,7 @@
 //
 // All randomness comes from integer arithmetic, which every driver does alike; a sin()-based hash would differ between
 // them. The bit mixer is the two-round multiply–xorshift form with the constants of C. Wellons' search ("lowbias32").
-// The lattice is K. Perlin's simplex grid (2001).
+// The lattice is K. Perlin's simplex grid (2001), of triangles.
 
 uint hash_bits(uint h) {
     h = (h ^ (h >> 16u)) * 0x7feb352du;
@@ -29,31 +29,34 @@ vec3 hash_vec3(uint h) {
 }
 
 // The gradient of a lattice point by its lattice_word: whole numbers, evenly spread within ±2^31. One round of mixing and a product for each component
-// do: over 64³ points no two components correlate by more than 0.02 at any distance, random ones by 0.01 (tests/shaders/test_noise.py).
-vec3 lattice_gradient(uint word) {
-    return vec3(ivec3((word ^ (word >> 15u)) * uvec3(0x3314ec4bu, 0x2b6361bfu, 0xf595c171u)));
+// do: over 512² points the two correlate by no more than 0.02 at any distance, random ones by 0.01 (tests/shaders/test_noise.py).
+vec2 lattice_gradient(uint word) {
+    return vec2(ivec2((word ^ (word >> 15u)) * uvec2(0x3314ec4bu, 0x2b6361bfu)));
 }
 
 // What a lattice corner adds to the noise at the place `offset` from it.
-float simplex_corner(vec3 offset, uint word) {
-    float fall = max(0.5 - dot(offset, offset), 0.0); // 0.5: the kernel ends before the next cell, so no jumps
+float simplex_corner(vec2 offset, uint word) {
+    float fall = max(0.5 - dot(offset, offset), 0.0); // √½ is a triangle's height: the kernel ends before the next one, so no jumps
     fall *= fall;
     return fall * fall * dot(lattice_gradient(word), offset);
 }
 
-// Gradient noise, mean 0, standard deviation 0.24, within −1…1 (0.95 in a million draws), features about 1 apart.
-float simplex_noise(vec3 p, uint seed) {
-    vec3 corner = floor(p + dot(p, vec3(1.0 / 3.0))); // skew: cubes to simplices
-    vec3 d0 = p - corner + dot(corner, vec3(1.0 / 6.0));
-    // Then along the largest of x, y, z first, along the smallest last. x ≥ y, y ≥ z, z > x: the last is strict, or ties have no order.
-    bvec3 ge = bvec3(d0.x >= d0.y, d0.y >= d0.z, d0.z > d0.x);
-    bvec3 first = bvec3(ge.x && !ge.z, ge.y && !ge.x, ge.z && !ge.y), both = bvec3(ge.x || !ge.z, ge.y || !ge.x, ge.z || !ge.y);
-    vec3 d1 = d0 - vec3(first) + 1.0 / 6.0;
-    vec3 d2 = d0 - vec3(both) + 1.0 / 3.0;
-    vec3 d3 = d0 - 0.5;
-    uint word = lattice_word(ivec3(corner), seed);
-    uvec3 w1 = uvec3(first) * LATTICE_STEP, w2 = uvec3(both) * LATTICE_STEP;
-    float sum = simplex_corner(d0, word) + simplex_corner(d1, word + w1.x + w1.y + w1.z)
-              + simplex_corner(d2, word + w2.x + w2.y + w2.z) + simplex_corner(d3, word + (LATTICE_STEP.x + LATTICE_STEP.y + LATTICE_STEP.z));
-    return (130.0 / 4294967296.0) * sum;
+const float SIMPLEX_EDGE = 0.81649658; // √(2/3), of a triangle √½ high
+
+// Gradient noise on a lattice of triangles with edges along x, mean 0, standard deviation 0.24, within −1…1 (0.95 in a million draws), features about 1
+// apart. `turn` is x in whole lattices of `edges` edges, a whole number: the noise repeats with each.
+float ring_noise(float turn, float edges, float y, uint seed) {
+    vec2 place = vec2(turn * edges, y * 1.41421356);
+    place.x -= 0.5 * place.y; // skew: squares to pairs of triangles
+    vec2 corner = floor(place), inside = place - corner;
+    float left = corner.x - edges * floor((corner.x + 0.5) / edges);
+    float right = left + 1.5 > edges ? 0.0 : left + 1.0;
+    uint low = uint(int(corner.y)) * LATTICE_STEP.y + seed * 0x27d4eb2fu, high = low + LATTICE_STEP.y;
+    uint west = uint(int(left)) * LATTICE_STEP.x, east = uint(int(right)) * LATTICE_STEP.x;
+    vec2 from_low_left = vec2(SIMPLEX_EDGE * (inside.x + 0.5 * inside.y), 0.70710678 * inside.y);
+    const vec2 ALONG = vec2(SIMPLEX_EDGE, 0.0), UP = vec2(0.5 * SIMPLEX_EDGE, 0.70710678);
+    bool upper = inside.x + inside.y > 1.0;
+    float sum = simplex_corner(from_low_left - ALONG, low + east) + simplex_corner(from_low_left - UP, high + west)
+              + simplex_corner(upper ? from_low_left - (ALONG + UP) : from_low_left, upper ? high + east : low + west);
+    return (107.8 / 4294967296.0) * sum;
 }

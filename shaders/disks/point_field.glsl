@@ -31,6 +31,7 @@ range = [0.0, 2.0]
 help = "Strength of the clumping of the points."
 ---*/
 #include "common/noise.glsl"
+#include "common/rotation.glsl"
 #include "common/disk_orbit.glsl"
 
 const float POINT_RADIUS = 0.24; // of a cell; with a jitter of ±0.25 no point leaves its own cell, so one cell is enough
@@ -65,7 +66,7 @@ float points_of_phase(DiskMatter matter, float age, float seed) {
     float sum = points_of_size(matter, disk_point_field_rings, age, uint(seed) * 4u)
               + points_of_size(matter, disk_point_field_rings * 1.6, age, uint(seed) * 4u + 1u)
               + points_of_size(matter, disk_point_field_rings * 2.7, age, uint(seed) * 4u + 2u);
-    float clump = simplex_noise(vec3(matter.heading * 3.0, 6.0 * log(matter.radius)), uint(seed));
+    float clump = ring_noise(turns(matter.heading.x, matter.heading.y), 23.0, 6.0 * log(matter.radius), uint(seed));
     return sum / 3.0 * max(1.0 + 2.0 * disk_point_field_turbulence * clump, 0.0);
 }
 

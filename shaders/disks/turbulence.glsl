@@ -1,7 +1,7 @@
 /*---
 label = "Turbulence"
 summary = "Octaves of sheared noise: filaments that follow the flow."
-source = "S1: product of octaves of 3-D simplex noise, octave i at frequency i² · scale, alternate octaves turning opposite ways"
+source = "S1: product of octaves of simplex noise, octave i at frequency i² · scale, alternate octaves turning opposite ways; S1's has three dimensions, a thin disk two"
 slot = "disk_layer"
 rank = 20
 
@@ -30,25 +30,20 @@ help = "How fast alternate octaves slide past each other, forwards and backwards
 #include "common/disk_orbit.glsl"
 #include "common/rotation.glsl"
 
-// The noise lives on a cylinder: (cos φ, sin φ)·around and ln r·across. So it has no seam at φ = ±π, and its eddies keep
+// The noise lives on the sheet of φ and ln r, a whole number of its lattice's edges round the hole. So it has no seam at φ = ±π, and its eddies keep
 // their shape at every radius. The octaves' factors are exponentials of noise: their product is log-normal, as the density
 // of a turbulent flow is, never negative, and its mean is kept at 1 whatever the number of octaves and the pixel's size.
-const float NOISE_DEVIATION = 0.24; // of simplex_noise
-
-// `heading` turned back by angle + slide (xy) and by angle − slide (zw).
-vec4 turned_both(vec2 heading, float angle, float slide) {
-    vec2 back = rotate(heading, cos_sin(-angle)), apart = cos_sin(slide);
-    return vec4(rotate(back, vec2(apart.x, -apart.y)), rotate(back, apart));
-}
+const float NOISE_DEVIATION = 0.24; // of ring_noise
+const float TURN = 6.2831853;
 
 DiskMatter disk_layer_turbulence(DiskMatter matter) {
     float rate = disk_rate(matter.radius) * disk_noise_speed;
     float slide = disk_spin_sign * disk_noise_speed * disk_turbulence_eddy_rate;
     vec2 ages = shear_phase.xy;
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw)); // two patterns mixed: the contrast of one
-    // Heading in each pattern's own, unturned frame: xy for odd octaves, zw for even ones, which slide the other way.
-    vec4 heading_a = turned_both(matter.heading, rate * ages.x, slide * ages.x);
-    vec4 heading_b = turned_both(matter.heading, rate * ages.y, slide * ages.y);
+    // Where the place is in each pattern's own, unturned frame, and how far odd octaves have slid back from there and even ones on, in turns.
+    vec2 turn = turns(matter.heading.x, matter.heading.y) - (rate / TURN) * ages;
+    vec2 slid = (slide / TURN) * ages;
     vec2 winding = 1.5 * abs(rate) * ages; // |dφ/d ln r| that the shear has drawn out
 
     float across = 8.0 * disk_noise_scale;
@@ -62,12 +57,12 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     int octave = 1;
     do {
         float frequency = float(octave * octave);
-        vec4 headings = (octave & 1) == 1 ? vec4(heading_a.xy, heading_b.xy) : vec4(heading_a.zw, heading_b.zw);
+        float edges = max(floor(frequency * around * (TURN / SIMPLEX_EDGE) + 0.5), 1.0);
+        vec2 place = (octave & 1) == 1 ? turn - slid : turn + slid;
         vec2 kept = clamp(1.6 - 2.0 * frequency * grain, 0.0, 1.0); // detail finer than two pixels would only flicker: 1 below 0.3, 0 from 0.8 on
         strengths = contrast * weights * kept * kept * (3.0 - 2.0 * kept);
         uvec2 seeds = uvec2(shear_seed.xy) * 16u + uint(octave);
-        exponent += strengths.x * simplex_noise(vec3(headings.xy * around, height) * frequency, seeds.x)
-                  + strengths.y * simplex_noise(vec3(headings.zw * around, height) * frequency, seeds.y);
+        exponent += strengths.x * ring_noise(place.x, edges, height * frequency, seeds.x) + strengths.y * ring_noise(place.y, edges, height * frequency, seeds.y);
         variance += dot(strengths, strengths);
         ++octave;
     } while (octave <= int(disk_turbulence_octaves) && strengths != vec2(0.0)); // where one octave is too fine, so are all that follow

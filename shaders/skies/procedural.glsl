@@ -28,6 +28,7 @@ default = true
 help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
 ---*/
 #include "common/colour.glsl"
+#include "common/rotation.glsl"
 
 // Stars sit in the cells of four grids on a cube round the world, one star a cell, each grid finer and fainter than the
 // last. A star keeps a margin to its cell's border. So long as the pixel's footprint is smaller than the margin, only the
@@ -135,17 +136,6 @@ void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float sprea
     light.flux += flux;
     light.heat += flux * (32.0 * float(floatBitsToInt(star.w) & 1023));
     light.haze += haze * (mean_flux * cells * cells);
-}
-
-// The angle of (x, y) in turns, −½…½, to 2e-6: a fraction of a texel, for half of what the driver's atan takes.
-float turns(float x, float y) {
-    vec2 size = abs(vec2(x, y));
-    float slope = min(size.x, size.y) / max(max(size.x, size.y), 1e-20);
-    float s = slope * slope;
-    float angle = slope * (0.15913366 + s * (-0.05256959 + s * (0.02867300 + s * (-0.01355268 + s * 0.00331740))));
-    angle = size.y > size.x ? 0.25 - angle : angle;
-    angle = x < 0.0 ? 0.5 - angle : angle;
-    return y < 0.0 ? -angle : angle;
 }
 
 vec3 galaxy_radiance(SkySpot spot) {
