@@ -50,9 +50,8 @@ vec3 disk_radiance(float r, float lambda, float energy) {
 vec2 disk_appearance(float density) {
 #if DISK_COMPOSITING_OPACITY
     // Optical depth is proportional to density. The source grows with its root, else dense filaments would saturate.
-    float clear = clamp(1.0 - disk_opacity, 1e-3, 0.999);
-    float hidden = 1.0 - pow(clear, density);
-    return vec2(sqrt(density) * hidden / (1.0 - clear), hidden);
+    float hidden = 1.0 - exp2(density * disk_veil.x);
+    return vec2(sqrt(density) * hidden * disk_veil.y, hidden);
 #else
     return vec2(density, 0.0);
 #endif

@@ -45,6 +45,7 @@ SHADE_BLOCK = Block(
         ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
         ("shear_seed", "vec4"),
         ("camera_heading", "vec2"),  # (cos, sin) of the camera's azimuth: turns hits from its meridian's frame to the world
+        ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
         ("disk_r_in", "float"),  # r_s, as used
         ("disk_r_out", "float"),
         ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
@@ -108,10 +109,12 @@ def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
     spin = observer.effective_spin(scene)
     inner, outer = plan.effective_disk_radii(scene)
     ages, weights, seeds = shear.shear_phases(time)
+    clear = min(max(1.0 - scene.disk.opacity, 1e-3), 0.999)
     return dict(
         shear_phase=(*ages, *weights),
         shear_seed=(*seeds, 0.0, 0.0),
         camera_heading=observer.cos_sin_deg(scene.camera.azimuth_deg),
+        disk_veil=(math.log2(clear), 1.0 / (1.0 - clear)),
         disk_r_in=inner,
         disk_r_out=outer,
         disk_spin_sign=float(relativity.orbit_sense(spin, scene.disk.orbit)),

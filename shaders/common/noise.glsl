@@ -49,10 +49,9 @@ float ring_noise(float turn, float edges, float y, uint seed) {
     vec2 place = vec2(turn * edges, y * 1.41421356);
     place.x -= 0.5 * place.y; // skew: squares to pairs of triangles
     vec2 corner = floor(place), inside = place - corner;
-    float left = corner.x - edges * floor((corner.x + 0.5) / edges);
-    float right = left + 1.5 > edges ? 0.0 : left + 1.0;
+    float left = corner.x - edges * floor((corner.x + 0.5) * (1.0 / edges));
     uint low = uint(int(corner.y)) * LATTICE_STEP.y + seed * 0x27d4eb2fu, high = low + LATTICE_STEP.y;
-    uint west = uint(int(left)) * LATTICE_STEP.x, east = uint(int(right)) * LATTICE_STEP.x;
+    uint west = uint(int(left)) * LATTICE_STEP.x, east = left + 1.5 > edges ? 0u : west + LATTICE_STEP.x;
     vec2 from_low_left = vec2(SIMPLEX_EDGE * (inside.x + 0.5 * inside.y), 0.70710678 * inside.y);
     const vec2 ALONG = vec2(SIMPLEX_EDGE, 0.0), UP = vec2(0.5 * SIMPLEX_EDGE, 0.70710678);
     bool upper = inside.x + inside.y > 1.0;

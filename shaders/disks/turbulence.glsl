@@ -48,7 +48,7 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
 
     float across = 8.0 * disk_noise_scale;
     float around = across / disk_turbulence_stretch;
-    float contrast = disk_turbulence_contrast * disk_density_gain / 9200.0;
+    float contrast = disk_turbulence_contrast * disk_density_gain * (1.0 / 9200.0);
     float height = log(matter.radius) * across;
     float exponent = 0.0, variance = 0.0;
     // Features of frequency 1 in a pixel, of the two patterns.

@@ -43,7 +43,6 @@ UNIFORMS: dict[str, tuple[str, Any]] = {
     "disk_r_out": ("float", 10.0),
     "disk_temperature_k": ("float", 6500.0),
     "disk_beaming_exponent": ("float", 4.0),
-    "disk_opacity": ("float", 0.85),
     "disk_emission_strength": ("float", 0.18),
     "disk_density_gain": ("float", 9200.0),
     "disk_noise_scale": ("float", 0.68),
