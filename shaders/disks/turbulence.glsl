@@ -41,7 +41,7 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     float slide = disk_spin_sign * disk_noise_speed * disk_turbulence_eddy_rate;
     vec2 ages = shear_phase.xy;
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw)); // two patterns mixed: the contrast of one
-    // Where the place is in each pattern's own, unturned frame, and how far odd octaves have slid back from there and even ones on, in turns.
+    // In turns: the place in each pattern's own, unturned frame, and how far the first octave has slid back from there; every other one slides on.
     vec2 turn = turns(matter.heading.x, matter.heading.y) - (rate / TURN) * ages;
     vec2 slid = (slide / TURN) * ages;
     vec2 winding = 1.5 * abs(rate) * ages; // |dφ/d ln r| that the shear has drawn out
@@ -54,18 +54,19 @@ DiskMatter disk_layer_turbulence(DiskMatter matter) {
     // Features of frequency 1 in a pixel, of the two patterns.
     vec2 grain = max(vec2(matter.footprint.x * across), (matter.footprint.y + winding * matter.footprint.x) * around);
     vec2 strengths;
-    int octave = 1;
+    float octave = 1.0;
     do {
-        float frequency = float(octave * octave);
+        float frequency = octave * octave;
         float edges = max(floor(frequency * around * (TURN / SIMPLEX_EDGE) + 0.5), 1.0);
-        vec2 place = (octave & 1) == 1 ? turn - slid : turn + slid;
+        vec2 place = turn - slid;
         vec2 kept = clamp(1.6 - 2.0 * frequency * grain, 0.0, 1.0); // detail finer than two pixels would only flicker: 1 below 0.3, 0 from 0.8 on
         strengths = contrast * weights * kept * kept * (3.0 - 2.0 * kept);
-        uvec2 seeds = uvec2(shear_seed.xy) * 16u + uint(octave);
+        uvec2 seeds = uvec2(shear_seed.xy * 16.0 + octave);
         exponent += strengths.x * ring_noise(place.x, edges, height * frequency, seeds.x) + strengths.y * ring_noise(place.y, edges, height * frequency, seeds.y);
         variance += dot(strengths, strengths);
-        ++octave;
-    } while (octave <= int(disk_turbulence_octaves) && strengths != vec2(0.0)); // where one octave is too fine, so are all that follow
+        slid = -slid;
+        octave += 1.0;
+    } while (octave <= float(disk_turbulence_octaves) && strengths != vec2(0.0)); // where one octave is too fine, so are all that follow
     matter.density *= exp(exponent - 0.5 * NOISE_DEVIATION * NOISE_DEVIATION * variance);
     return matter;
 }
