@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time as clock
 from dataclasses import dataclass, replace
 from typing import Any
@@ -111,8 +112,19 @@ class _Method:
         return self.stated_in(scene) is not None and plan.resolved(scene).rays != self.stated.rays
 
 
+@dataclass(frozen=True)
+class _Drawing:
+    """What a picture was drawn of."""
+
+    scene: Scene
+    time: float
+    size: tuple[int, int]
+    progressive: bool
+
+
 class Picture:
-    """Renders a scene into a texture of its own and draws that into the window.
+    """Renders a scene into a texture of its own and draws that into the window. A picture that the next frame replaces is drawn into the window at once, where it
+    is as large as its area: llvmpipe takes a tenth of the frame for the copy. Should the next one fail, it is drawn again, into the texture.
 
     Args:
         gl: the window's context.
@@ -141,6 +153,8 @@ class Picture:
         self._triangle = gl.vertex_array(self._program, [])
         self._shown: moderngl.Framebuffer | None = None
         self._spare: moderngl.Framebuffer | None = None
+        self._in_window: _Drawing | None = None  # the last picture, where only the window has it
+        self._is_drawn = False  # that, in this frame
         self._made_of: tuple | None = None
         self._resolution = Resolution()
         self._most_samples = 1  # that it is to have at rest
@@ -175,19 +189,23 @@ class Picture:
         """Whether further calls of `update` for the same would draw nothing."""
         return self.is_current and self.is_sharp and self.samples >= self._most_samples
 
-    def update(self, scene: Scene, time: float, area: Area, *, moving: bool, camera_moving: bool, exact: bool = False) -> bool:
-        """Renders when anything that shows has changed.
+    def update(
+        self, scene: Scene, time: float, area: Area, *, moving: bool, camera_moving: bool, exact: bool = False, window: moderngl.Framebuffer | None = None
+    ) -> bool:
+        """Renders when anything that shows has changed. `draw` is to follow.
 
         Args:
             time: scene time in r_s/c.
             moving: whether the next frame will differ; a picture too costly for the scene's frame rate is then drawn coarser.
             camera_moving: whether rays have to be traced anew, which costs more than shading; some pixels are then interpolated between rays.
             exact: make the picture sharp at once.
+            window: where a picture that moves may be drawn at once.
 
         Returns:
             Whether a picture was rendered.
         """
         now = clock.perf_counter()
+        self._is_drawn = False
         waits = self.preparation.waits(now)
         bridge = self._bridge(scene, waits)
         self.bridges = bridge is not None
@@ -200,7 +218,7 @@ class Picture:
         wanted = (drawn, time, size)
         if wanted == self._made_of and self.is_sharp and not rehearsing:
             self._begun = None
-            return self._draw_finer(drawn, time, size)
+            return self._keep() or self._draw_finer(drawn, time, size)
         # Remembered before rendering: what fails is not tried again until something changes.
         self._made_of = wanted
         self.samples = self._most_samples = 1
@@ -208,17 +226,20 @@ class Picture:
         if rehearsing:
             self.renderer.hit_map.forget()
         self.renderer.programs.deadline = self.preparation.deadline(now)
+        drawing = _Drawing(drawn, time, size, progressive)
+        at_once = window is not None and moving and self._is_rehearsed and size == (area.width, area.height)
         try:
-            report = self.renderer.render(drawn, time, size, target=self._spare_of(size), measure=True, progressive=progressive)
+            report = self._render_into(window, area, drawing) if at_once else self._render(drawing)
         except Unready:
             self.renderer.hit_map.forget()  # it may be half drawn
             self._made_of = None
+            self._keep_if_possible()
             self._miss(scene, area.scaled(COARSEST[True]), now)
             return False
         except Exception:
             self.preparation.over()
+            self._keep_if_possible()
             raise
-        self._shown, self._spare = self._spare, self._shown
         self.report, self.scale = report, scale
         if drawn.post.view == "picture":
             self._most_samples = MOST_SAMPLES
@@ -228,6 +249,33 @@ class Picture:
             self._method = _Method.of(scene, drawn)
             self.preparation.over()
         return True
+
+    def _render(self, drawing: _Drawing) -> Any:
+        """Draws into the texture; returns the report."""
+        report = self.renderer.render(drawing.scene, drawing.time, drawing.size, target=self._spare_of(drawing.size), measure=True, progressive=drawing.progressive)
+        self._shown, self._spare = self._spare, self._shown
+        self._in_window = None
+        return report
+
+    def _render_into(self, window: moderngl.Framebuffer, area: Area, drawing: _Drawing) -> Any:
+        """Draws into `area` of `window`; returns the report."""
+        self._clear_beside(window, area)
+        viewport = (area.x, area.y, area.width, area.height)
+        report = self.renderer.render(drawing.scene, drawing.time, drawing.size, target=window, viewport=viewport, measure=True, progressive=drawing.progressive)
+        self._in_window, self._is_drawn = drawing, True
+        return report
+
+    def _keep(self) -> bool:
+        """Draws the last picture into the texture, if only the window has it. Returns whether it was drawn."""
+        if self._in_window is None:
+            return False
+        self.report = self._render(self._in_window)
+        return True
+
+    def _keep_if_possible(self) -> None:
+        """For when the next picture failed, which is what is to be told."""
+        with contextlib.suppress(Exception):
+            self._keep()
 
     def _draw_finer(self, scene: Scene, time: float, size: tuple[int, int]) -> bool:
         """One more ray a pixel for a picture in which nothing changes any more. Returns whether there was one to take."""
@@ -311,10 +359,10 @@ class Picture:
 
     def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
         """Fills `area` of `window` with the picture, and the rest with black."""
-        window.use()
-        self._gl.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._gl.scissor = None
-        window.clear()
+        if self._is_drawn:
+            window.use()
+            return
+        self._clear_beside(window, area)
         if self._shown is None or area.is_empty:
             return
         texture = self._shown.color_attachments[0]
@@ -324,3 +372,11 @@ class Picture:
         self._gl.viewport = (area.x, area.y, area.width, area.height)
         texture.use(0)
         self._triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def _clear_beside(self, window: moderngl.Framebuffer, area: Area) -> None:
+        """Makes `window` black, unless the picture will fill it."""
+        window.use()
+        self._gl.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._gl.scissor = None
+        if self._shown is None or (area.width, area.height) != window.size:
+            window.clear()

@@ -248,7 +248,7 @@ class Window:
         if view.area.is_empty or self._is_minimised():
             return
         window = self._gl.detect_framebuffer()
-        self._render(view.area)
+        self._render(view.area, window)
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.picture.draw(window, view.area)
 
@@ -298,13 +298,15 @@ class Window:
             return (0.0, 0.0), wheel
         return (io.mouse_delta.x / view.height, io.mouse_delta.y / view.height), wheel
 
-    def _render(self, area: Area) -> None:
+    def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state
         editing = self._is_editing()
         moving = (state.is_moving or editing) and not state.picture_wanted
         camera_moving = editing or state.dragging or not state.motion.at_rest
         try:
-            rendered = self.picture.update(state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted)
+            rendered = self.picture.update(
+                state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted, window=window
+            )
         except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
             text = str(error) or type(error).__name__
             if text != state.render_error:  # once, and not for every frame of a drag

@@ -4,6 +4,7 @@ import math
 import time as clock
 from concurrent.futures import Future
 
+import numpy as np
 import pytest
 
 from blackhole_gl import plan
@@ -209,3 +210,105 @@ def test_what_failed_is_not_drawn_finer(resting):
     with pytest.raises(RuntimeError):
         draw(time=1.0)
     assert not draw(time=1.0), "nor tried again"
+
+
+class Shown:
+    """A window of 96 × 54 pixels with a picture at its lower left that a test turns; what it shows is told by the colours of a renderer of flat ones."""
+
+    AREA = Area(0, 0, 64, 36)
+
+    def __init__(self, ctx, renderer):
+        self.picture = Picture(ctx, renderer, Preparation(lambda scene, size: Future()))
+        self.window = ctx.simple_framebuffer((96, 54))
+        self._time = 0.0
+        while not self.picture.is_current:
+            self.draw(0.0, moving=False)
+
+    def draw(self, azimuth, *, moving=True):
+        """A frame of the window; a moving picture's disk has turned. Returns whether a picture was rendered."""
+        self._time += 0.1 if moving else 0.0
+        self.window.clear(0.0, 1.0, 0.0)
+        scene = Scene().with_values({"camera.azimuth_deg": azimuth, "playback.target_fps": 0.0})
+        try:
+            return self.picture.update(scene, self._time, self.AREA, moving=moving, camera_moving=False, window=self.window)
+        finally:
+            self.picture.draw(self.window, self.AREA)
+
+    def seen(self):
+        """The azimuth that the picture's middle and its corner tell, to a degree; beside it all is black."""
+        pixels = np.frombuffer(self.window.read(components=3), np.uint8).reshape(54, 96, 3)
+        assert not pixels[:, 64:].any() and not pixels[36:].any()
+        assert np.array_equal(pixels[18, 32], pixels[35, 63])
+        return 720.0 * (pixels[18, 32, 0] / 255.0 - 0.5)
+
+
+@pytest.fixture
+def shown(ctx):
+    return Shown(ctx, FakeRenderer(ctx))
+
+
+def close(azimuth):
+    return pytest.approx(azimuth, abs=2.0)  # half a grey level is 1.4 degrees
+
+
+def test_a_moving_picture_goes_into_the_window_at_once_and_is_kept_when_it_rests(shown):
+    for azimuth in (20.0, 40.0, 60.0):
+        assert shown.draw(azimuth) and shown.seen() == close(azimuth)
+    drawn = len(shown.picture.renderer.calls)
+    assert shown.draw(60.0, moving=False) and shown.seen() == close(60.0)
+    assert shown.picture.renderer.calls[-1] == shown.picture.renderer.calls[-2], "the same, into the texture"
+    shown.draw(60.0, moving=False)
+    assert len(shown.picture.renderer.calls) == drawn + 1 and shown.seen() == close(60.0)
+    assert 720.0 * (shown.picture.read_rgb8()[0, 0, 0] / 255.0 - 0.5) == close(60.0)
+
+
+def test_the_last_good_picture_stays_where_only_the_window_had_it(shown):
+    shown.draw(20.0), shown.draw(40.0)
+    render, failures = shown.picture.renderer.render, []
+
+    def fails_once(*given, **named):
+        if not failures:
+            failures.append(given)
+            raise RuntimeError("out of order")
+        return render(*given, **named)
+
+    shown.picture.renderer.render = fails_once
+    with pytest.raises(RuntimeError, match="out of order"):
+        shown.draw(60.0)
+    assert shown.seen() == close(40.0)
+    assert shown.draw(80.0) and shown.seen() == close(80.0)
+
+
+def test_a_renderer_that_can_do_nothing_any_more_tells_of_the_first_failure(shown):
+    shown.draw(20.0), shown.draw(40.0)
+    shown.picture.renderer.fail = RuntimeError("out of order")
+    with pytest.raises(RuntimeError, match="out of order"):
+        shown.draw(60.0)
+    shown.seen()  # some earlier picture
+
+
+def test_the_last_picture_stays_while_programs_are_missing(shown):
+    shown.draw(20.0), shown.draw(40.0)
+    render = shown.picture.renderer.render
+
+    def missing(scene, *given, **named):
+        if scene.camera.azimuth_deg == 60.0:
+            raise Unready
+        return render(scene, *given, **named)
+
+    shown.picture.renderer.render = missing
+    for _ in range(3):
+        assert not shown.draw(60.0) and shown.seen() == close(40.0)
+
+
+def test_a_coarse_picture_is_enlarged_from_the_texture(ctx):
+    renderer = FakeRenderer(ctx)
+    shown = Shown(ctx, renderer)
+    scene = Scene().with_values({"camera.azimuth_deg": 50.0, "playback.target_fps": 120.0})
+    renderer.us_per_pixel = 100.0
+    for step in range(30):
+        shown.window.clear(0.0, 1.0, 0.0)
+        shown.picture.update(scene, 10.0 + step, Shown.AREA, moving=True, camera_moving=True, window=shown.window)
+        shown.picture.draw(shown.window, Shown.AREA)
+        assert shown.seen() == close(50.0)
+    assert shown.picture.scale < 1.0
