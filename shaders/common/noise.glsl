@@ -43,7 +43,7 @@ float simplex_corner(vec2 offset, uint word) {
 
 const float SIMPLEX_EDGE = 0.81649658; // √(2/3), of a triangle √½ high
 
-// Gradient noise on a lattice of triangles with edges along x, mean 0, standard deviation 0.24, within −1…1 (0.95 in a million draws), features about 1
+// Gradient noise on a lattice of triangles with edges along x, mean 0, standard deviation 0.24, within −1…1 (0.7 in a quarter of a million draws), features about 1
 // apart. `turn` is x in whole lattices of `edges` edges, a whole number: the noise repeats with each.
 float ring_noise(float turn, float edges, float y, uint seed) {
     vec2 place = vec2(turn * edges, y * 1.41421356);
