@@ -37,7 +37,7 @@ gallery: ## the pictures of the README anew, into docs/pictures
 
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart
-	$(BIN)/blackhole-gl chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
+	$(BIN)/python -m studies.chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
 
 test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight
 	@$(SETUP) test
@@ -45,12 +45,12 @@ test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K
 
 stability: ## every method through the cases where methods fail: docs/stability.md; STABILITY_ARGS="--only kerr"
 	@$(SETUP) run
-	$(BIN)/python tools/make_stability_page.py $(STABILITY_ARGS)
+	$(BIN)/python -m studies.make_stability_page $(STABILITY_ARGS)
 
 flight: ## ten seconds round the hole, refined and exact: docs/data/flight.csv and its plot; FLIGHT_ARGS="-p m87_like --fps 2 --out ."
 	@$(SETUP) chart
-	$(BIN)/python tools/fly.py $(FLIGHT_ARGS)
+	$(BIN)/python -m studies.fly $(FLIGHT_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
 	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
-	find blackhole_gl tests tools -name __pycache__ -type d -exec rm -rf {} +
+	find blackhole_gl studies tests tools -name __pycache__ -type d -exec rm -rf {} +

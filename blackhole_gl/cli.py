@@ -1,16 +1,18 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, chart, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, plan, bench, check and presets."""
 
 from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Callable, Optional
+from typing import Annotated
 
 import typer
 
-from . import presets as preset_files
+from .output.progress import Progress
 from .scene import Scene, SceneError
+from .scene import presets as preset_files
 
 app = typer.Typer(
     name="blackhole-gl",
@@ -22,10 +24,10 @@ app = typer.Typer(
 )
 
 Presets = Annotated[
-    Optional[list[str]],
+    list[str] | None,
     typer.Option("--preset", "-p", help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.", show_default="kerr"),
 ]
-Settings = Annotated[Optional[list[str]], typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12. Repeatable.")]
+Settings = Annotated[list[str] | None, typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12. Repeatable.")]
 Backend = Annotated[str, typer.Option(help="How to get a GL context without a window: auto, egl or osmesa.", envvar="BLACKHOLE_GL_BACKEND")]
 
 
@@ -76,7 +78,7 @@ def render(
     preset: Presets = None,
     set_: Settings = None,
     size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
-    time: Annotated[Optional[float], typer.Option(help="Scene time in r_s/c. When not given: that of a PNG preset, or 0.", show_default=False)] = None,
+    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a PNG preset, or 0.", show_default=False)] = None,
     supersample: Annotated[int, typer.Option(min=1, max=16, help="Rays a pixel along each axis.")] = 1,
     backend: Backend = "auto",
 ) -> None:
@@ -112,27 +114,6 @@ def trace(
 
 
 @app.command()
-def chart(
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder for accuracy.md, pictures/ and data/.")] = Path("accuracy"),
-    plan_table: Annotated[Optional[Path], typer.Option(help="Also write the table that the plan chooses by.", show_default=False)] = None,
-    work: Annotated[Optional[Path], typer.Option(help="Folder for finished measurements, so that a broken-off run goes on.", show_default="the user's cache")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Few scenes, methods and rays: under 2 minutes.")] = False,
-    backend: Backend = "auto",
-) -> None:
-    """Measure the error and the cost of every method on this machine: tables, charts and a page. Under 20 minutes."""
-    from . import resources
-    from .chart import run
-    from .chart.pictures import library
-
-    library()  # says what is missing before the long part
-    renderer = _renderer(backend)
-    command = "make chart" if plan_table else "blackhole-gl chart" + (" --quick" if quick else "")
-    with _Progress("measuring") as progress:
-        written = run.make(renderer, out, work or resources.user_cache_dir() / "chart", quick=quick, command=command, progress=progress, plan_table=plan_table)
-    print("Written: " + ", ".join(str(path) for path in written))
-
-
-@app.command()
 def plan(
     preset: Presets = None,
     set_: Settings = None,
@@ -153,7 +134,7 @@ def plan(
     if moving is not None:
         print(f"  refined  {moving}")
     if measure:
-        from .chart.prediction import measured, measured_refined
+        from .measure.prediction import measured, measured_refined
 
         renderer = _renderer(backend)
         found = measured(renderer, scene)
@@ -169,22 +150,22 @@ def plan(
 def bench(
     preset: Presets = None,
     set_: Settings = None,
-    size: Annotated[Optional[list[str]], typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
+    size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
     rounds: Annotated[int, typer.Option(min=1, max=100, help="Frames of each kind; medians are taken.")] = 5,
-    json: Annotated[Optional[Path], typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
+    json: Annotated[Path | None, typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
     euler: Annotated[bool, typer.Option(help="Also time 300 Euler steps, the yardstick E.")] = True,
     backend: Backend = "auto",
 ) -> None:
     """Time whole frames and their parts on this machine: methods, still and moving, over picture sizes."""
     from json import dumps
 
-    from . import bench as benching
+    from .measure import bench as benching
     from .output.files import write_whole
 
     scene = _scene(preset, set_)
     sizes = [_size(text) for text in size] if size else benching.SIZES
     renderer = _renderer(backend)
-    with _Progress("timing") as progress:
+    with Progress("timing") as progress:
         found = benching.measure(renderer, scene, sizes, rounds, euler, progress)
     print(benching.text(found), end="")
     if json is not None:
@@ -207,7 +188,7 @@ def check() -> None:
 
 @app.command()
 def presets(
-    name: Annotated[Optional[str], typer.Argument(help="Show this preset's values as TOML.")] = None,
+    name: Annotated[str | None, typer.Argument(help="Show this preset's values as TOML.")] = None,
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
@@ -227,7 +208,7 @@ def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
 
 def _refuse_unmet(scene: Scene) -> None:
     """A stated tolerance below the floor is an error; the default one only earns a warning, so that any camera gives a picture."""
-    from . import choice
+    from .plan import choice
 
     made = choice.choose(scene)
     if made.meets:
@@ -270,37 +251,6 @@ def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples
     from .output import png
 
     renderer = _renderer(backend)
-    with _Progress("rendering") as progress:
+    with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)
     png.write(out, renderer.read_rgb8(), preset_files.picture_text(scene, time))
-
-
-class _Progress:
-    """A line on standard error that shows the share done, once a second has passed."""
-
-    def __init__(self, label: str):
-        self._label, self._bar = label, None
-
-    def __enter__(self) -> Callable[[float], None]:
-        import time
-
-        self._start = time.monotonic()
-        self._clock = time.monotonic
-        return self._show
-
-    def _show(self, share: float, what: str = "") -> None:
-        elapsed = self._clock() - self._start
-        if elapsed < 1.0 and self._bar is None:
-            return
-        if self._bar is None:
-            from rich.console import Console
-            from rich.progress import Progress
-
-            self._bar = Progress(console=Console(stderr=True), transient=True)
-            self._task = self._bar.add_task(self._label, total=1.0)
-            self._bar.start()
-        self._bar.update(self._task, completed=share, description=what or self._label)
-
-    def __exit__(self, *_) -> None:
-        if self._bar is not None:
-            self._bar.stop()

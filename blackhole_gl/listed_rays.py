@@ -5,14 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Iterable
 
 import numpy as np
 
-from . import observer, reference, relativity
+from . import reference
 from .output.files import write_whole
+from .physics import observer, relativity
 from .render.frame import Renderer
 from .scene import Scene
 

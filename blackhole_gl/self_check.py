@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Iterator
 
 import moderngl
 import numpy as np
 
-from . import listed_rays, presets
+from . import listed_rays
 from .render import context
 from .render.frame import Renderer
+from .scene import presets
 
 # The self test's own rays: 24 × 12 over the middle of the picture. The bound is the float32 floor of rays that keep 1 % away from
 # the critical curve, with a margin of 10 for drivers whose arithmetic is coarser than IEEE.

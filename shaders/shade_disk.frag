@@ -5,7 +5,7 @@
 // Contract of a disk layer (shaders/disks/<key>.glsl):
 //   DiskMatter disk_layer_<key>(DiskMatter matter)
 //     changes matter.density, 1 on a smooth disk, keeping its mean near 1. Detail below matter.footprint must be faded out.
-//     Motion: shear_phase = (age₀, age₁, weight₀, weight₁) and shear_seed (blackhole_gl/shear.py): two patterns that are
+//     Motion: shear_phase = (age₀, age₁, weight₀, weight₁) and shear_seed (blackhole_gl/physics/shear.py): two patterns that are
 //     born, sheared and replaced in turn, so that the shear never winds up.
 //     Loops that run a known number of times are best written do … while: llvmpipe runs a for loop's body once too often.
 #defines
@@ -19,7 +19,7 @@
 #include "common/disk_matter.glsl"
 #include "common/disk_orbit.glsl"
 
-uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/disk_profile.py
+uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/physics/disk_profile.py
 
 out vec4 radiance;
 

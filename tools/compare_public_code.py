@@ -18,11 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
-from blackhole_gl import listed_rays, presets
-from blackhole_gl.chart.scenes import critical_radius
+from blackhole_gl import listed_rays
 from blackhole_gl.listed_rays import TracedRays
+from blackhole_gl.measure.scenes import critical_radius
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 
 OUT = Path(__file__).resolve().parents[1] / "docs" / "data" / "accuracy_outside.csv"
 HOLES = ((0.001, 80.0), (0.3, 30.0), (0.6, 60.0), (0.9, 17.0), (0.95, 75.0), (0.998, 85.0))  # a*, inclination in degrees; kerrz takes any smaller spin for 0.001

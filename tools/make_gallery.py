@@ -5,15 +5,15 @@ Each is rendered at twice the size it is shown at, averaged, and kept as a JPEG 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Mapping
 
 from PIL import Image
 
-from blackhole_gl import presets
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "pictures"
 SIZE = (960, 540)

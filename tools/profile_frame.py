@@ -13,9 +13,9 @@ import sys
 import time as clock
 from collections import defaultdict
 
-from blackhole_gl import presets
 from blackhole_gl.render import frame, programs
 from blackhole_gl.render.context import create_headless
+from blackhole_gl.scene import presets
 
 TURN_DEG = 0.5  # between frames, in both angles
 

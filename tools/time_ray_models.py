@@ -12,8 +12,8 @@ from __future__ import annotations
 import argparse
 import time
 
-from blackhole_gl import listed_rays, plan, timing
-from blackhole_gl.chart import errors, scenes
+from blackhole_gl import listed_rays, plan
+from blackhole_gl.measure import errors, scenes, timing
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene

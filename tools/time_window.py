@@ -12,14 +12,15 @@ from __future__ import annotations
 
 import argparse
 import time as clock
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field, replace
 from statistics import median, quantiles
-from typing import Callable, Collection, Iterator
 
-from blackhole_gl import presets
+from imgui_bundle import hello_imgui
+
 from blackhole_gl.app import commands, picture, window
 from blackhole_gl.app.state import WindowState
-from imgui_bundle import hello_imgui
+from blackhole_gl.scene import presets
 
 ORBIT_DEG = (60.0, 100.0)
 ZOOM_RS = (6.0, 30.0)

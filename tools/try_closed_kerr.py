@@ -15,10 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from blackhole_gl import observer
-from blackhole_gl.chart import errors, scenes
 from blackhole_gl.listed_rays import TracedRays, local_vectors
-from blackhole_gl.relativity import horizon_radius
+from blackhole_gl.measure import errors, scenes
+from blackhole_gl.physics import observer
+from blackhole_gl.physics.relativity import horizon_radius
 
 F = np.float32
 _SLOW = {"divide", "sqrt", "arctan2", "arccos", "cos", "sin", "cbrt"}

@@ -7,12 +7,12 @@ at a constant rate, for which the lag has a closed solution, so the path does no
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Mapping
 
-from .. import observer, relativity
-from ..fields import Field
+from ..physics import observer, relativity
 from ..scene import Scene, fields
+from ..scene.schema import Field
 
 SMOOTHING_TIME = 0.09  # τ in seconds: fast enough to feel attached to the hand, slow enough to hide the wheel's notches
 _INSTANT_S = 1e-6  # no time at all: a rate over less would overflow

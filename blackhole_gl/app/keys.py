@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import difflib
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any
 
 MODIFIERS = ("CTRL", "SHIFT", "ALT", "SUPER")
 

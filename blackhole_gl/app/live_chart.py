@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec4, hello_imgui, imgui, implot
 
-from .. import catalogue, plan
-from ..chart import live
-from ..chart.live import Live, LivePoint
+from .. import plan
+from ..measure import live
+from ..measure.live import Live, LivePoint
 from ..plan import RayPlan
-from ..scene import Scene, SceneError
+from ..scene import Scene, SceneError, catalogue
 from . import theme
 from .state import WindowState
 

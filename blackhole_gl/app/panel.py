@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from .. import catalogue, plan, presets
-from ..fields import Field
-from ..scene import Scene, fields
+from .. import plan
+from ..scene import Scene, catalogue, fields, presets
+from ..scene.schema import Field
 from . import preset_switch, scene_files, theme, widgets
 from .state import WindowState
 

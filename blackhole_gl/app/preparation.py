@@ -7,8 +7,8 @@ window compiles them itself, in a bounded part of each frame: milliseconds where
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Callable
 
 from ..scene import Scene
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
-from .. import presets
+from ..scene import presets
 from .state import WindowState
 
 LAYERED = ("physics", "look", "quality")

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import presets
 from ..output import png
-from ..scene import Scene
+from ..scene import Scene, presets
 from .state import WindowState
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import multiprocessing
 import time as clock
 from concurrent.futures import Future, ProcessPoolExecutor
-from functools import lru_cache
+from functools import cache
 
 from ..render.context import create_headless
 from ..render.frame import Renderer
@@ -48,7 +48,7 @@ class WarmUp:
             self._worker = None
 
 
-@lru_cache(maxsize=None)
+@cache
 def _shared() -> Renderer:
     return Renderer(create_headless())
 

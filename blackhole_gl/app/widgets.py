@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Callable, Mapping
 
 from imgui_bundle import hello_imgui, imgui
 
-from .. import catalogue
-from ..fields import Field, Value
+from ..scene import catalogue
+from ..scene.schema import Field, Value
 from . import theme
 
 Change = Callable[[Mapping[str, Value]], None]

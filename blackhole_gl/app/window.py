@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import traceback
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Protocol
+from typing import Any, Protocol
 
 from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the first GLFW that is loaded is the one used
+
+# isort: split
 import glfw
 import moderngl
 
-from ..chart import live
+from ..measure import live
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale

@@ -15,9 +15,9 @@ moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses th
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Mapping, Sequence
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from .. import relativity
+from ..physics import relativity
 from .hits import CAPTURED, ESCAPED
 from .observers import Place
 

@@ -20,7 +20,7 @@ import math
 
 import numpy as np
 
-from .. import relativity
+from ..physics import relativity
 from .observers import Momenta, Place
 
 Array = np.ndarray

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from .. import relativity
+from ..physics import relativity
 from . import flat, lenses
 from .hits import CAPTURED, ESCAPED, UNRESOLVED, ReferenceHits, angles, wrapped
 from .integrator import EVALUATIONS_PER_STEP, locate_zero, march
@@ -15,7 +15,7 @@ from .mino import ENERGY, MinoSystem
 from .mino import L as L_MINO
 from .observers import Place, momenta, static_observer_exists
 from .post_newtonian import PostNewtonianSystem
-from .schwarzschild import N_Z, W, SchwarzschildSystem
+from .schwarzschild import N_Z, SchwarzschildSystem, W
 
 MODELS = ("flat", "screen_lens", "weak_field", "post_newtonian", "post_newtonian_drag", "schwarzschild", "schwarzschild_binet", "kerr_like",
           "kerr", "kerr_schild")

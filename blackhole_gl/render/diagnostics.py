@@ -7,9 +7,9 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
-from .. import plan, presets
+from .. import plan
 from ..plan import RayPlan
-from ..scene import Scene
+from ..scene import Scene, presets
 from .hit_map import HitMap
 from .programs import Programs, bind_samplers, draw
 from .views import View, linear_light, view_of

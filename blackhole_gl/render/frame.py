@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import moderngl
 import numpy as np
@@ -16,7 +16,6 @@ from .hit_map import HitArrays, HitMap
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
-
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""

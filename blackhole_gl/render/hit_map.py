@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from .. import plan
-from ..observer import cos_sin_deg
+from ..physics.observer import cos_sin_deg
 from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
 from . import refinement

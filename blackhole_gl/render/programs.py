@@ -5,19 +5,18 @@ from __future__ import annotations
 import math
 import time as clock
 from collections import OrderedDict
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Mapping, Sequence
 
 import moderngl
 
-from .. import catalogue
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
 from ..plan import RayPlan
 from ..resources import shaders_dir
-from ..scene import Scene
+from ..scene import Scene, catalogue
 from . import uniforms
 
 MOST_KEPT = 64

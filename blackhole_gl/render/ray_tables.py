@@ -7,7 +7,7 @@ import math
 import moderngl
 import numpy as np
 
-from .. import orbit_table
+from ..physics import orbit_table
 from ..scene import Scene
 
 UNIT = 7

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Sequence
+from collections.abc import Sequence
 
 import moderngl
 import numpy as np
 
-from .. import plan
 from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
 from .programs import Programs, bind_samplers, draw

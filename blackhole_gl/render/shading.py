@@ -5,12 +5,13 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .. import disk_profile, observer, plan, star_cells
+from .. import plan
+from ..physics import disk_profile, observer
 from ..resources import assets_dir
 from ..scene import Scene
+from . import star_cells
 from .hit_map import HitMap
 from .programs import Programs, bind_samplers, draw
-
 
 # Below these depths lie the classes of pixels that may cross the disk, and that may be of the sky (shaders/shade_classes.frag); beyond the
 # last those of flat cells (refine_classes.frag).

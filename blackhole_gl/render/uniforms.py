@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
-from typing import Mapping
+from collections.abc import Mapping
+from functools import cache
 
-import numpy as np
-
-from .. import observer, orbit_table, plan, relativity, shear
+from .. import plan
 from ..glsl.blocks import Block
+from ..physics import observer, orbit_table, relativity, shear
 from ..scene import Scene, fields
 
 RAY_BLOCK = Block(
@@ -54,13 +53,13 @@ SHADE_BLOCK = Block(
 )
 
 
-@lru_cache(maxsize=None)
+@cache
 def scene_block() -> Block:
     """Every number of the scene by its key with underscores; angles of the camera are left to the host."""
     return Block("SceneBlock", 2, tuple((name, fields()[key].kind) for key, name in _number_names()))
 
 
-@lru_cache(maxsize=None)
+@cache
 def _number_names() -> tuple[tuple[str, str], ...]:
     """(key, member) of every number that shaders know."""
     return tuple((key, item.glsl_name) for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg"))
@@ -143,13 +142,13 @@ def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
     return found
 
 
-@lru_cache(maxsize=None)
+@cache
 def _switch_names() -> tuple[tuple[str, str], ...]:
     """(key, ``#define``) of every switch of the scene."""
     return tuple((key, item.glsl_name.upper()) for key, item in fields().items() if item.kind == "switch")
 
 
-@lru_cache(maxsize=None)
+@cache
 def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
     """(key, (option, ``#define``) pairs) of every choice of the scene."""
     choices = ((key, item) for key, item in fields().items() if item.kind == "choice")

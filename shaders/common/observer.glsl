@@ -1,4 +1,4 @@
-// From a pixel to what its ray starts with. The matrix comes from the host's float64 tetrad (blackhole_gl/observer.py).
+// From a pixel to what its ray starts with. The matrix comes from the host's float64 tetrad (blackhole_gl/physics/observer.py).
 
 // A ray at the camera, traced backwards, |E| = 1. Units M = 1; rates are per Mino time.
 struct RayStart {

@@ -12,7 +12,7 @@ twin = "schwarzschild"
 ---*/
 #include "common/orbit_from_centre.glsl"
 
-uniform sampler2D orbit_table;  // blackhole_gl/orbit_table.py
+uniform sampler2D orbit_table;  // blackhole_gl/physics/orbit_table.py
 
 // The angle swept to the ray's end; `ratio` = tan(ψ/2)/tan(ψ_c/2) is above 1 for a ray that escapes.
 float swept_angle(float ratio) {

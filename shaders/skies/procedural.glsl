@@ -38,7 +38,7 @@ help = "Shift the sky's colour and brightness (as the fourth power) by the obser
 // A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
 // light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
 
-uniform sampler2D star_cells;  // blackhole_gl/star_cells.py; nearest, as texelFetch takes half as long again on llvmpipe
+uniform sampler2D star_cells;  // blackhole_gl/render/star_cells.py; nearest, as texelFetch takes half as long again on llvmpipe
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
 
 const vec3 GALAXY_CENTRE = vec3(-0.947063, 0.290589, 0.136495);

@@ -16,9 +16,10 @@ from pathlib import Path  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from blackhole_gl import cli, presets  # noqa: E402, F401  the command line is part of every start
-from blackhole_gl.app import picture, window  # noqa: E402
 from imgui_bundle import hello_imgui  # noqa: E402
+
+from blackhole_gl.app import picture, window  # noqa: E402
+from blackhole_gl.scene import presets  # noqa: E402, F401  the command line is part of every start
 
 NAMES = ["kerr"]
 

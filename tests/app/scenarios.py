@@ -8,17 +8,17 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import glfw
 import numpy as np
+from hands import Frames, Hands, wait
 from imgui_bundle import imgui
 from imgui_bundle.glfw_utils import glfw_window_hello_imgui
-import glfw
 from PIL import Image
 
-from blackhole_gl import plan, presets
+from blackhole_gl import plan
 from blackhole_gl.app import preset_switch
 from blackhole_gl.app.live_chart import is_used, use
-from blackhole_gl.scene import fields
-from hands import Frames, Hands, wait
+from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
 LONGEST_FRAME_S = 0.6  # twice what is promised: where others share the core, processor time counts double

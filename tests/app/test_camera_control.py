@@ -3,7 +3,8 @@
 import math
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given
+from hypothesis import strategies as st
 
 from blackhole_gl.app.camera_control import Motion, Pose, horizon_radius, limited, pose_of, values_of
 from blackhole_gl.app.commands import Hand, advance

@@ -13,7 +13,7 @@ MOST_SECONDS = 3.0
 MOST_PROGRAMS = 8
 """As many as a picture with a ray for every pixel has. Those of other views and scenes, and of interpolated maps, are compiled when they are wanted."""
 
-NOT_NEEDED = ("matplotlib", "scipy", "PIL.ImageShow", "blackhole_gl.bench", "blackhole_gl.chart.page", "blackhole_gl.self_check")
+NOT_NEEDED = ("matplotlib", "scipy", "PIL.ImageShow", "blackhole_gl.measure.bench", "studies", "blackhole_gl.self_check")
 
 
 def first_picture(folder: Path) -> dict:

@@ -4,11 +4,10 @@ import math
 
 import pytest
 
-from blackhole_gl import presets
 from blackhole_gl.app import commands, preset_switch, scene_files
 from blackhole_gl.app.commands import Hand, advance
 from blackhole_gl.app.state import NOTICE_SECONDS, WindowState
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, presets
 
 
 @pytest.fixture

@@ -5,16 +5,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Mapping
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl import presets
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 
 GOLDEN = Path(__file__).resolve().parent / "golden"
 OUTPUT = Path(__file__).resolve().parents[1] / "output"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Iterator
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "presets", "shaders", "tests", "tools")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 RENDER_ONE_FRAME = """
 import json, sys
-from blackhole_gl import presets
+from blackhole_gl.scene import presets
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 

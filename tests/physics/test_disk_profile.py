@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from blackhole_gl import disk_profile, relativity
+from blackhole_gl.physics import disk_profile, relativity
 
 ORBITS = ["prograde", "retrograde"]
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import integrate, optimize
 
-from blackhole_gl import relativity
+from blackhole_gl.physics import relativity
 from blackhole_gl.reference import CAPTURED, ESCAPED, UNRESOLVED, trace
 from blackhole_gl.reference.integrator import march
-from blackhole_gl.reference.kerr import CHART, ENERGY, L_Z, P_N, W, KerrSystem
+from blackhole_gl.reference.kerr import CHART, ENERGY, L_Z, P_N, KerrSystem, W
 from blackhole_gl.reference.observers import Place, momenta
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import observer, reference, relativity
+from blackhole_gl import reference
+from blackhole_gl.physics import observer, relativity
 
 AWAY = 1e-3  # |ψ/ψ_c − 1| at least
 BOUND = 1e-10  # rad; issue 3, acceptance 2

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import integrate, optimize
 
-from blackhole_gl import relativity
+from blackhole_gl.physics import relativity
 from blackhole_gl.reference import CAPTURED, ESCAPED, trace
 
 MASS = 0.5  # r_s = 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import relativity
+from blackhole_gl.physics import relativity
 from blackhole_gl.reference import CAPTURED, ESCAPED, trace
 
 B_C = relativity.CRITICAL_IMPACT

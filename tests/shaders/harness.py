@@ -6,14 +6,15 @@ trace pass.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any
 
 import moderngl
 import numpy as np
 
-from blackhole_gl import star_cells
 from blackhole_gl.glsl.compose import compose
+from blackhole_gl.render import star_cells
 from blackhole_gl.resources import assets_dir, shaders_dir
 
 VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }"

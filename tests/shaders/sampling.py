@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from blackhole_gl import observer, relativity
+from blackhole_gl.physics import observer, relativity
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
 

@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from blackhole_gl import bench, cli, presets
+from blackhole_gl import cli
+from blackhole_gl.measure import bench
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 
 
 def test_still_frames_keep_the_hit_map_and_moving_ones_trace(renderer: Renderer) -> None:

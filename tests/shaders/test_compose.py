@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import os
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Iterator
 
 import moderngl
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, plan, presets
+from blackhole_gl import plan
 from blackhole_gl.glsl.compose import ShaderError
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_map import HitMap
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.resources import shaders_dir
-from blackhole_gl.scene import Scene, fields
+from blackhole_gl.scene import Scene, catalogue, fields, presets
 
 SCENE = presets.load(["kerr"])
 PLAN = plan.plan(SCENE)

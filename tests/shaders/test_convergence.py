@@ -14,9 +14,10 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, listed_rays, presets
+from blackhole_gl import listed_rays
 from blackhole_gl.reference import schemes
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import catalogue, presets
 
 WITHIN = 0.3  # issue 3: measured order against the declared one
 FLOOR = 1.5e-6  # rad: what rounding may leave at the finest steps used here

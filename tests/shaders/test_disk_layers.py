@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.shear import RENEWAL_PERIOD, shear_phases
+from blackhole_gl.physics.shear import RENEWAL_PERIOD, shear_phases
 from tests.shaders.harness import Piece
 
 LAYERS = ("turbulence", "point_field")

@@ -19,7 +19,7 @@ TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 DRAW = """
 import sys
 import numpy as np
-from blackhole_gl import presets
+from blackhole_gl.scene import presets
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 
@@ -55,13 +55,13 @@ def extended(tmp_path: Path) -> Path:
         assert not (tmp_path / path).exists(), f"{path} is there already: the example needs another name"
         (tmp_path / path).write_text(text, encoding="utf-8")
     layer, law = PYTHON
-    scene = tmp_path / "blackhole_gl" / "scene.py"
+    scene = tmp_path / "blackhole_gl" / "scene" / "records.py"
     text = scene.read_text(encoding="utf-8")
     text, layers = re.subn(r"^(    turbulence: bool = .*\n)", lambda match: match[1] + layer, text, flags=re.MULTILINE)
     text, laws = re.subn(r'"shakura_sunyaev", ', '"shakura_sunyaev", "constant", ', text)
     assert (layers, laws) == (1, 1)
     scene.write_text(text, encoding="utf-8")
-    profile = tmp_path / "blackhole_gl" / "disk_profile.py"
+    profile = tmp_path / "blackhole_gl" / "physics" / "disk_profile.py"
     profile.write_text(profile.read_text(encoding="utf-8") + "\n\n" + law, encoding="utf-8")
     (tmp_path / "preset.toml").write_text(TOML[0], encoding="utf-8")
     return tmp_path

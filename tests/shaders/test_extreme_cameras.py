@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blackhole_gl import presets
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 
 CAMERAS = {
     "just outside the horizon": {"hole.spin": 0.0, "camera.distance": 1.0001, "camera.fov_deg": 150.0},

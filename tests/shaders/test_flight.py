@@ -1,4 +1,4 @@
-"""The flight of chart/flight.py: refined frames against exact ones, and what happens from frame to frame."""
+"""The flight of studies/flight.py: refined frames against exact ones, and what happens from frame to frame."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl import presets
-from blackhole_gl.chart import flight, pictures
-from blackhole_gl.chart.flight import FlightFrame
-from blackhole_gl.chart.flip import flip
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, presets
+from studies import flight, pictures
+from studies.flight import FlightFrame
+from studies.flip import flip
 
 COUNT = round(flight.SECONDS * flight.FPS)
 SMALL, WHOLE = (320, 180), (640, 360)

@@ -8,9 +8,10 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, listed_rays, presets
+from blackhole_gl import listed_rays
 from blackhole_gl.plan import plan
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import catalogue, presets
 
 MARCHED = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits["kind"] == "differential"]
 HOLES = [key for key in MARCHED if catalogue.plug_ins("ray_model")[key].traits.get("charted", True)]

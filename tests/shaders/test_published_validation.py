@@ -7,9 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl import listed_rays, observer, presets, relativity
-from blackhole_gl.chart.validation import validate
+from blackhole_gl import listed_rays
+from blackhole_gl.physics import observer, relativity
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
+from studies.validation import validate
 from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge
 
 EXACT = {"kerr": "mino", "kerr_schild": "mino", "schwarzschild": "radius", "schwarzschild_binet": "curvature"}

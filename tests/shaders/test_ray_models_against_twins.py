@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, listed_rays, presets
+from blackhole_gl import listed_rays
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, catalogue, presets
 from tests.shaders.sampling import random_rays
 
 # What float32 leaves at 1e-2 from the shadow's edge. The drag from infinity is of first order to the march's bound: bounds of its own.

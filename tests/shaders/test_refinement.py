@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl import choice, plan, presets
-from blackhole_gl.chart.displacement import beside_an_edge, displacement_px
+from blackhole_gl.plan import choice
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_map import HitArrays
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, presets
+from studies.displacement import beside_an_edge, displacement_px
 
 SIZE = (480, 270)
 CAMERAS = {

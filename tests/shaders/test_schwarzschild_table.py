@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import listed_rays, orbit_table, presets, relativity
+from blackhole_gl import listed_rays
+from blackhole_gl.physics import orbit_table, relativity
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, presets
 from tests.shaders.sampling import SCREEN_ANGLES, random_rays, shadow_edge
 
 # Of rays at least 1e-2 from the critical curve: escape direction in rad, radius of crossings relatively. Closer in both grow as the

@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl import presets, relativity
+from blackhole_gl.physics import relativity
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge
 
 # Issue 2, acceptance 2. Float32 directions alone are good to 1e-7; the rest is the march's rounding on the critical curve.

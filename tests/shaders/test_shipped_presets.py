@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import presets
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.resources import presets_dir
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import disk_profile, presets, relativity
+from blackhole_gl.physics import disk_profile, relativity
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.scene import presets
 from tests.shaders.sampling import shadow_edge
 
 SIZE = (96, 54)

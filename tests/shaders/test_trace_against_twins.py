@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import listed_rays, presets
+from blackhole_gl import listed_rays
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import presets
 from tests.shaders.sampling import random_rays
 
 # Issue 2, acceptance 3, for rays at least 1e-2 from the critical curve.

@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl import presets
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.views import MAGENTA, RED, linear_light, view_of
-from blackhole_gl.scene import Scene, fields
+from blackhole_gl.scene import Scene, fields, presets
 
 SIZE = (48, 30)
 VIEWS = [name for name in fields()["post.view"].options if name != "picture"]

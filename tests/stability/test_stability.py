@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl import observer, plan, relativity
-from blackhole_gl.chart import stability, stability_page
-from blackhole_gl.chart.stability_cases import CASES, impact
-from blackhole_gl.chart.stability_viewer import VIEWER_CASES
+from blackhole_gl import plan
+from blackhole_gl.physics import observer, relativity
 from blackhole_gl.render.frame import Renderer
+from studies import stability, stability_page
+from studies.stability_cases import CASES, impact
+from studies.stability_viewer import VIEWER_CASES
 
 ROOT = Path(__file__).resolve().parents[2]
 STORED = stability_page.loads((Path(__file__).parent / "verdicts.csv").read_text(encoding="utf-8"))

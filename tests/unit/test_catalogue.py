@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from blackhole_gl import catalogue
 from blackhole_gl.resources import shaders_dir
+from blackhole_gl.scene import catalogue
 
 HEADER = '''/*---
 label = "Ripple"

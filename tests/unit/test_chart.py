@@ -10,15 +10,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl import catalogue, choice, listed_rays, plan, presets, relativity
-from blackhole_gl.chart import critical, errors, finest, live, measure, page, pareto, pictures, refined, run, sizes, table, validation
-from blackhole_gl.chart import methods as chart_methods
-from blackhole_gl.chart.methods import Method, exact_for, sensible
-from blackhole_gl.chart.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
-from blackhole_gl.chart.survey import own_twin
-from blackhole_gl.chart.work import Kept, key_of
+from blackhole_gl import listed_rays, plan
 from blackhole_gl.listed_rays import TracedRays
+from blackhole_gl.measure import errors, live, refined
+from blackhole_gl.measure import methods as chart_methods
+from blackhole_gl.measure.methods import Method, exact_for, sensible
+from blackhole_gl.measure.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
+from blackhole_gl.physics import relativity
+from blackhole_gl.plan import choice
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import catalogue, presets
+from studies import critical, finest, measure, page, pareto, pictures, run, sizes, table, validation
+from studies.survey import own_twin
+from studies.work import Kept, key_of
 
 WHERE = table.Origin("a machine", "a renderer", "abc", "2026-01-01")
 TINY = measure.Timings((32, 18), 1, 1)

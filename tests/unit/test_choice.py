@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Callable, Iterator
 
 import pytest
 
-from blackhole_gl import choice, plan, presets, resources
-from blackhole_gl.scene import Scene
+from blackhole_gl import plan, resources
+from blackhole_gl.plan import choice
+from blackhole_gl.scene import Scene, presets
 
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and presets.load([info.name]).hole.gravity_strength == 1.0]
 

@@ -8,8 +8,8 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from blackhole_gl.chart.measure import Row
-from blackhole_gl.chart.cost_lines import by_work
+from studies.cost_lines import by_work
+from studies.measure import Row
 
 EMPTY = Row(**{item.name: "" if item.type == "str" else 0 if item.type == "int" else math.nan for item in fields(Row)})
 

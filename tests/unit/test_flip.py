@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.chart.flip import flip
+from studies.flip import flip
 
 
 def _pattern() -> np.ndarray:

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from blackhole_gl import catalogue, observer, relativity
+from blackhole_gl.physics import observer, relativity
 from blackhole_gl.reference import observers as twin
-from blackhole_gl.scene import Scene
+from blackhole_gl.scene import Scene, catalogue
 
 
 def scene_of(model: str = "kerr", **camera) -> Scene:

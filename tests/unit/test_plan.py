@@ -6,9 +6,10 @@ import math
 
 import pytest
 
-from blackhole_gl import catalogue, choice, plan, relativity
-from blackhole_gl.scene import Scene, SceneError
-
+from blackhole_gl import plan
+from blackhole_gl.physics import relativity
+from blackhole_gl.plan import choice
+from blackhole_gl.scene import Scene, SceneError, catalogue
 
 STATED = {
     "rays.model": "kerr",

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 import tomlkit
-from hypothesis import assume, given, settings, strategies as st
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
-from blackhole_gl import presets
 from blackhole_gl.output import png
-from blackhole_gl.presets import PresetError
-from blackhole_gl.scene import Scene, SceneError, fields
+from blackhole_gl.scene import Scene, SceneError, fields, presets
+from blackhole_gl.scene.presets import PresetError
 
 
 @pytest.fixture(autouse=True)

@@ -4,9 +4,8 @@ import math
 
 import pytest
 
-from blackhole_gl import presets
 from blackhole_gl.resources import presets_dir
-from blackhole_gl.scene import Scene, fields
+from blackhole_gl.scene import Scene, fields, presets
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 

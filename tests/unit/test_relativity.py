@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate, special
 
-from blackhole_gl import relativity
+from blackhole_gl.physics import relativity
 
 SPINS = [-0.9999, -0.5, -1e-7, 0.0, 1e-7, 0.3, 0.9, 0.998, 0.9999]
 ORBITS = ["prograde", "retrograde"]

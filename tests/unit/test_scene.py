@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from blackhole_gl.fields import Field
 from blackhole_gl.scene import Scene, SceneError, fields
+from blackhole_gl.scene.schema import Field
 
 NUMBERS = [item for item in fields().values() if item.kind in ("float", "int")]
 

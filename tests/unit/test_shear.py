@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from blackhole_gl.shear import RENEWAL_PERIOD, shear_phases
+from blackhole_gl.physics.shear import RENEWAL_PERIOD, shear_phases
 
 TEN_HOURS = 36_000.0 * 4.0  # of playback at the default 4 r_s/c a second
 

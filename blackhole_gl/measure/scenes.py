@@ -1,0 +1,132 @@
+"""Where it is measured: cameras and holes, the rays through their pixels, and what is true of those rays."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .. import listed_rays
+from ..listed_rays import TracedRays
+from ..physics import observer, relativity
+from ..plan.choice import REFINED_SIZE
+from ..scene import Scene, catalogue, presets
+
+ASPECT = REFINED_SIZE[0] / REFINED_SIZE[1]
+FULL_HD = 1080
+"""Pixels in the height of the picture whose pixels errors are also given in."""
+
+NEAR_CRITICAL = 1e-3
+"""Rays within this relative distance ε of the critical curve are counted apart."""
+
+SEED = 20
+
+_FAR = 1e7  # r_s: what stands for infinity where only a finite place has a shadow's angle
+
+# name: (a*, distance in r_s, inclination, angle of view); near and far cameras for each kind of hole.
+_OWN = {
+    "a0_far": (0.0, 50.0, 30.0, 25.0),
+    "a0_near": (0.0, 4.0, 80.0, 90.0),
+    "a0_distant": (0.0, 1000.0, 80.0, 45.0),
+    "a06_far": (0.6, 200.0, 60.0, 6.0),
+    "a095_near": (0.95, 5.0, 75.0, 90.0),
+    "a0998_near": (0.998, 3.0, 60.0, 100.0),
+}
+SHOWN = ("a0_near", "a06_far", "a095_near", "a0998_near")
+"""The scenes of the pictures and of a quick run."""
+
+
+@dataclass(frozen=True)
+class ChartScene:
+    """A scene with a name and a fixed sample of rays.
+
+    Attributes:
+        count: rays through the centres of random pixels; a tenth as many more lie close to the critical curve.
+        whole: whether every sensible method is measured in it, or the best ones only.
+    """
+
+    name: str
+    scene: Scene
+    count: int = 1500
+    whole: bool = True
+
+    @property
+    def pixel(self) -> float:
+        """Angle in radians of one pixel of a picture 1080 pixels high, at its middle."""
+        return math.radians(self.scene.camera.fov_deg) / FULL_HD
+
+    @cached_property
+    def pixels(self) -> np.ndarray:
+        """(count, 2) integers: x and y, from the bottom left, of the pixels of a picture of `REFINED_SIZE` whose rays come first in `rays`."""
+        return _pixels(np.random.default_rng(SEED), self.count)
+
+    @cached_property
+    def rays(self) -> np.ndarray:
+        """(N, 2) as `listed_rays.read` gives them."""
+        rng = np.random.default_rng(SEED)
+        right, up = (2.0 * (_pixels(rng, self.count) + 0.5) / REFINED_SIZE - 1.0).T
+        at_infinity = math.isinf(self.scene.camera.distance)
+        half = 0.5 * self.scene.camera.field_m if at_infinity else math.tan(math.radians(0.5 * self.scene.camera.fov_deg))
+        radius, chi = half * np.hypot(ASPECT * right, up), np.arctan2(up, ASPECT * right)
+        chi_near = rng.uniform(-np.pi, np.pi, self.count // 10)
+        epsilon = 10.0 ** rng.uniform(-6.0, math.log10(NEAR_CRITICAL), len(chi_near)) * rng.choice([-1.0, 1.0], len(chi_near))
+        near = critical_radius(self.scene, chi_near) * (1.0 + epsilon)
+        radius, chi = np.append(radius if at_infinity else np.arctan(radius), near), np.append(chi, chi_near)
+        return np.stack([radius * np.cos(chi), radius * np.sin(chi)] if at_infinity else [radius, chi], axis=-1)
+
+    @cached_property
+    def epsilon(self) -> np.ndarray:
+        """(N,) relative distance |ε| of each ray from the critical curve."""
+        if math.isinf(self.scene.camera.distance):
+            radius, chi = np.hypot(*self.rays.T), np.arctan2(self.rays[:, 1], self.rays[:, 0])
+        else:
+            radius, chi = self.rays.T
+        return np.abs(radius / critical_radius(self.scene, chi) - 1.0)
+
+    @cached_property
+    def truth(self) -> TracedRays:
+        """What the rays really do."""
+        return listed_rays.trace_by_reference(true_scene(self.scene), self.rays)
+
+
+def _pixels(rng: np.random.Generator, count: int) -> np.ndarray:
+    return np.stack([rng.uniform(0.0, side, count).astype(int) for side in REFINED_SIZE], axis=-1)
+
+
+def true_scene(scene: Scene) -> Scene:
+    """`scene` traced by the model that is exact for its hole."""
+    return scene.with_values({"rays.model": "schwarzschild" if scene.hole.spin == 0.0 else "kerr", "rays.lensing": True, "rays.orders": 3})
+
+
+def critical_radius(scene: Scene, chi: np.ndarray) -> np.ndarray:
+    """The shadow's edge in the screen direction `chi`: ψ in radians, or √(α² + β²) in M for a camera at infinity."""
+    seen = observer.observe(true_scene(scene))
+    distance = min(scene.camera.distance, _FAR)
+    kind = "static" if seen.kind == "infinity" else seen.kind
+    psi = relativity.shadow_angle(chi, distance, math.radians(scene.camera.inclination_deg), scene.hole.spin, kind)
+    return psi if seen.w > 0.0 else 2.0 * _FAR * np.sin(psi) / math.sqrt(1.0 - 1.0 / _FAR)
+
+
+def is_physical(scene: Scene) -> bool:
+    """Whether `scene` shows a hole as it is: only then is there a truth to compare with."""
+    return scene.hole.gravity_strength == 1.0 and scene.hole.horizon_size == 1.0
+
+
+def chart_scenes(quick: bool = False) -> list[ChartScene]:
+    """The chart's own scenes, then every shipped physics and scene preset that shows a hole as it is; a quick run has `SHOWN` alone."""
+    kerr = presets.load(["kerr"])
+    own = {}
+    for name, (spin, distance, inclination, view) in _OWN.items():
+        own[name] = kerr.with_values({"hole.spin": spin, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.fov_deg": view})
+    if quick:
+        return [ChartScene(name, own[name], 400, whole=False) for name in SHOWN]
+    shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group in ("physics", "scene")}
+    physical = {name: scene for name, scene in shipped.items() if is_physical(scene) and _has_a_hole(scene)}
+    return [ChartScene(name, scene, whole=name in SHOWN) for name, scene in (own | physical).items()]
+
+
+def _has_a_hole(scene: Scene) -> bool:
+    model = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses
+    return scene.rays.lensing and (model is None or bool(model.traits.get("charted", True)))

@@ -1,0 +1,77 @@
+"""Fair timing: methods interleaved in one run, as ratios to the flat frame of the same scene.
+
+Machines drift and are shared; a ratio taken round by round does not. Timer queries are not used: on software renderers they lie.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Container, Mapping
+from dataclasses import dataclass, replace
+
+from .. import plan
+from ..plan import RayPlan
+from ..render.frame import Renderer
+from ..scene import Scene
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Trace time of one scene.
+
+    Attributes:
+        milliseconds: median over the rounds.
+        ratio: median over the rounds of the time relative to the yardstick in the same round.
+        spread: (lowest, highest) of that ratio.
+    """
+
+    milliseconds: float
+    ratio: float
+    spread: tuple[float, float]
+
+
+def flat_scene(scene: Scene) -> Scene:
+    """The same scene with straight rays: the yardstick."""
+    return scene.with_values({"rays.lensing": False})
+
+
+def euler_task(scene: Scene) -> tuple[Scene, RayPlan]:
+    """300 fixed Euler steps of `schwarzschild` in the same picture: the common way of today's viewers.
+
+    Every ray that is not captured takes all 300: the step is so short that none gets out of the march's bound before.
+    """
+    values = {"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.max_steps": 300, "hole.spin": 0.0}
+    slow = scene.with_values(values)
+    return slow, replace(plan.plan(slow), step_length=plan.march_bound(slow) / 300.0)
+
+
+def tasks(scenes: Mapping[str, Scene]) -> dict[str, tuple[Scene, RayPlan]]:
+    """Scenes with their own plans, ready for `interleaved`."""
+    return {name: (scene, plan.plan(scene)) for name, scene in scenes.items()}
+
+
+def interleaved(
+    renderer: Renderer,
+    work: Mapping[str, tuple[Scene, RayPlan]],
+    size: tuple[int, int],
+    yardstick: str,
+    rounds: int = 7,
+    refined: Container[str] = (),
+) -> dict[str, Timing]:
+    """Trace times of `work` at `size`, taken in turn `rounds` times after one uncounted round.
+
+    Args:
+        yardstick: the key in `work` that ratios are taken to.
+        refined: the keys in `work` whose plans say how far hits may be interpolated, and which are traced so.
+    """
+    times: dict[str, list[float]] = {name: [] for name in work}
+    for counted in range(-1, rounds):
+        for name, (scene, ray_plan) in work.items():
+            seconds = renderer.time_trace(scene, size, ray_plan, progressive=name in refined)
+            if counted >= 0:
+                times[name].append(seconds)
+    found = {}
+    for name, seconds in times.items():
+        ratios = [a / b for a, b in zip(seconds, times[yardstick])]
+        found[name] = Timing(1e3 * statistics.median(seconds), statistics.median(ratios), (min(ratios), max(ratios)))
+    return found

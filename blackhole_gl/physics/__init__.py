@@ -1,0 +1,1 @@
+"""Closed forms, frames and profiles in float64: what is one number a picture."""

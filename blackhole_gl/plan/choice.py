@@ -1,0 +1,385 @@
+"""The cheapest method that is accurate enough for a scene, by what the chart measured (assets/measurements.csv).
+
+What a scene leaves open (a model, integrator or step control named ``auto``, a step of 0) is chosen here; what it states is kept.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from ..physics import observer
+from ..resources import assets_dir
+from ..scene import Rays, Scene, catalogue
+
+AUTO = "auto"
+
+PICTURE_HEIGHT = 1080
+"""Pixels in the height of the picture whose pixels a tolerance is given in."""
+
+REFINED_SIZE, REFINED_TOLERANCE = (1280, 720), 0.5
+"""Picture in pixels, and ``rays.tolerance``, that refined rows of the table are measured with: how much is interpolated depends on both."""
+
+# A method may end no more than 1 % of the rays wrongly: the tolerance speaks of 99 % of the pixels.
+_WRONG_FATES = 0.01
+
+# A measured scene this near (see `_distance`) is the scene itself; otherwise the worse of the two nearest is believed.
+_SAME = 0.02
+
+# Steps where nothing was measured: κ = 0.2 rad and Δt₀ = 0.1 r_s are half a pixel in the default scene.
+_PLAIN_ANGLE, _PLAIN_LENGTH = 0.2, 0.1
+
+_TRIAL_ANGLE, _TRIAL_LENGTH = 0.4, 0.5
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to trace. Steps it does not have are 0: Δt₀ in r_s, κ in radians, tolerance of an adaptive control in radians a step."""
+
+    model: str
+    integrator: str
+    step_control: str
+    step_length: float
+    step_angle: float
+    step_tolerance: float
+
+    def __str__(self) -> str:
+        settings = [f"{name} = {value:.3g}" for name, value in (("Δt₀", self.step_length), ("κ", self.step_angle), ("tolerance", self.step_tolerance)) if value]
+        return ", ".join([name for name in (self.model, self.integrator, self.step_control) if name] + settings)
+
+    @property
+    def kind(self) -> tuple[str, str, str]:
+        """The method but for its step."""
+        return self.model, self.integrator, self.step_control
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One row of the chart's table: a method in a scene.
+
+    Attributes:
+        spin, distance, inclination_deg, fov_deg: of the measured scene.
+        direction_99: error of the escape direction in radians at 99 % of the rays.
+        crossing_r_99: relative error of the crossing radii at 99 %.
+        wrong_fates: share of rays.
+        cost: trace time as a ratio to the flat frame of the same size.
+        refined: whether the hit map was refined, as it is while the camera moves; size and tolerance are then `REFINED_SIZE` and `REFINED_TOLERANCE`.
+        cost_unrefined: of a refined row: what a ray for every pixel costs at that size; 0 otherwise.
+    """
+
+    scene: str
+    spin: float
+    distance: float
+    inclination_deg: float
+    fov_deg: float
+    model: str
+    integrator: str
+    step_control: str
+    step_length: float
+    step_angle: float
+    step_tolerance: float
+    direction_99: float
+    crossing_r_99: float
+    wrong_fates: float
+    evaluations: float
+    cost: float
+    refined: bool
+    cost_unrefined: float
+
+    @cached_property
+    def method(self) -> Method:
+        """What tells methods apart, refinement left aside."""
+        return Method(self.model, self.integrator, self.step_control, self.step_length, self.step_angle, self.step_tolerance)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """A method with what the chart lets expect of it in a scene.
+
+    Attributes:
+        error_px: at 99 % of the pixels, in pixels of a picture 1080 high.
+        cost: trace time as a ratio to the flat frame of the same scene.
+    """
+
+    method: Method
+    error_px: float
+    cost: float
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """What the chart lets expect of a scene's method with refined hit maps, in a picture of `REFINED_SIZE`.
+
+    Attributes:
+        error_px: at 99 % of the pixels, in pixels of that picture.
+        cost: trace time as a ratio to the flat frame of that size.
+        cost_unrefined: the same with a ray for every pixel.
+    """
+
+    error_px: float
+    cost: float
+    cost_unrefined: float
+
+    def __str__(self) -> str:
+        width, height = REFINED_SIZE
+        return f"{self.error_px:.2g} px at {self.cost:.2g} flat frames of {width}×{height} against {self.cost_unrefined:.2g} for every pixel"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What was chosen.
+
+    Attributes:
+        scene: the scene with nothing left open.
+        chosen, runner_up: predictions; None where nothing was measured that fits.
+        floor_px: the least error that any measured method has here; NaN where none was.
+        meets: whether the tolerance is met; True also where a method was stated by hand.
+        reasons: why, a sentence each.
+    """
+
+    scene: Scene
+    chosen: Prediction | None
+    runner_up: Prediction | None
+    floor_px: float
+    meets: bool
+    reasons: tuple[str, ...]
+
+
+@lru_cache(maxsize=64)
+def choose(scene: Scene) -> Choice:
+    """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open."""
+    if not is_open(scene):
+        return Choice(scene, None, None, math.nan, True, (f"{observer.ray_model(scene).key}: stated by rays.model and the steps",))
+    if scene.rays.model == AUTO and (scene.rays.step_angle or scene.rays.step_length):
+        return Choice(_plainly(scene), None, None, math.nan, True, ("the steps are stated by hand: the exact model for this hole",))
+    why_not = _not_measured(scene)
+    if why_not:
+        return Choice(_plainly(scene), None, None, math.nan, True, (why_not,))
+    found = sorted(predictions(scene), key=lambda p: p.cost)
+    if not found:
+        return Choice(_plainly(scene), None, None, math.nan, True, ("nothing was measured that fits: plain steps",))
+    floor = min(p.error_px for p in found)
+    good = [p for p in found if p.error_px <= scene.rays.tolerance]
+    ranked = good or sorted(found, key=lambda p: p.error_px)
+    best = ranked[0]
+    rival = next((p for p in ranked[1:] if p.method.kind != best.method.kind), None)
+    reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
+    if rival is not None:
+        reasons.append(f"runner-up: {rival.method}, {rival.error_px:.2g} px at {rival.cost:.3g} flat frames")
+    return Choice(_stated(scene, best), best, rival, floor, bool(good), tuple(reasons))
+
+
+def is_open(scene: Scene) -> bool:
+    """Whether `scene` leaves anything to choose: never without lensing."""
+    if not scene.rays.lensing:
+        return False
+    if scene.rays.model == AUTO:
+        return True
+    traits = observer.ray_model(scene).traits
+    if traits["kind"] == "closed":
+        return False
+    step = scene.rays.step_angle if traits["marches_in"] == "mino" else scene.rays.step_length
+    return AUTO in (scene.rays.integrator, scene.rays.step_control) or step == 0.0
+
+
+def predictions(scene: Scene) -> Iterator[Prediction]:
+    """What the chart lets expect of every measured method that fits what `scene` states."""
+    for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0):
+        yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost)
+
+
+@lru_cache(maxsize=64)
+def _candidates(near: tuple[str, ...], rays: Rays, spins: bool) -> tuple[tuple[Method, tuple[Measured, ...]], ...]:
+    """Methods that fit `rays` round a hole that `spins` or not, each with its rows in the measured scenes `near`, in their order.
+
+    Kept, as every frame of a moving camera is a scene to choose for.
+    """
+    by_method: dict[Method, list[Measured]] = {}
+    for row in _measured_in(near):
+        if not row.refined and _fits(rays, spins, row):
+            by_method.setdefault(row.method, []).append(row)
+    return tuple((method, tuple(rows)) for method, rows in by_method.items() if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows))
+
+
+@lru_cache(maxsize=64)
+def refinement(scene: Scene) -> Refinement | None:
+    """What to expect of refined hit maps in `scene`, which leaves nothing open; None where its method was not measured with them."""
+    if _not_measured(scene):
+        return None
+    near, method = _nearest_scenes(scene), _stated_method(scene)
+    rows: dict[tuple[str, bool], Measured] = {}
+    for row in _measured_in(near):
+        if row.method == method:
+            rows[row.scene, row.refined] = row
+    if len(rows) < 2 * len(near):
+        return None
+    nearest = rows[near[0], True]
+    error = max(_refined_error_px(scene, rows[name, False], rows[name, True]) for name in near)
+    if any(rows[name, True].wrong_fates > _WRONG_FATES for name in near):
+        error = math.inf
+    # Interpolation's error goes as the second derivative, which falls as the square of the distance to the critical curve: pixels with rays
+    # of their own grow as 1/√tolerance. They are taken for all of the cost but a flat frame's: rather too much than too little.
+    more = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
+    return Refinement(error, 1.0 + (nearest.cost - 1.0) * more, nearest.cost_unrefined)
+
+
+def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> float:
+    """What `scene` may expect from a measured scene's two rows.
+
+    The march errs by an angle, whatever a pixel is; interpolation by a share of a pixel, there as here, which follows the tolerance.
+    """
+    height = REFINED_SIZE[1]
+    march, both = (_pixels(scene, row.fov_deg, row.distance, height, row.direction_99, row.crossing_r_99) for row in (marched, refined))
+    added = max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
+    return error_px(scene, marched.direction_99, marched.crossing_r_99, height) + added
+
+
+def _stated_method(scene: Scene) -> Method:
+    """The method of `scene`, which leaves nothing open, as the table names it."""
+    rays, model = scene.rays, observer.ray_model(scene)
+    if model.traits["kind"] == "closed":
+        return Method(model.key, "", "", 0.0, 0.0, 0.0)
+    if catalogue.plug_ins("step_control")[rays.step_control].traits.get("adapts"):
+        return Method(model.key, rays.integrator, rays.step_control, 0.0, 0.0, scene.get(f"rays.{rays.step_control}.tolerance"))
+    angular = model.traits["marches_in"] == "mino"
+    return Method(model.key, rays.integrator, rays.step_control, 0.0 if angular else rays.step_length, rays.step_angle if angular else 0.0, 0.0)
+
+
+def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PICTURE_HEIGHT) -> float:
+    """Errors in pixels of a picture of `scene` `height` pixels high: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
+    return _pixels(scene, scene.camera.fov_deg, scene.camera.distance, height, direction, crossing_r)
+
+
+def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, direction: float, crossing_r: float) -> float:
+    """As `error_px`, for the disk of `scene` seen by another camera."""
+    pixel = math.radians(fov_deg) / height
+    if not scene.disk.enabled or math.isinf(distance):
+        return direction / pixel
+    outer = scene.disk.outer_radius
+    return max(direction, crossing_r * outer / max(distance, outer)) / pixel
+
+
+@lru_cache(maxsize=1)
+def measurements() -> tuple[Measured, ...]:
+    """The chart's table; empty where there is none."""
+    path = assets_dir() / "measurements.csv"
+    if not path.is_file():
+        return ()
+    with open(path, newline="", encoding="utf-8") as file:
+        records = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return tuple(row for record in records if (row := _measured(record)) is not None)
+
+
+def forget_choices() -> None:
+    """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
+    for kept in (_by_scene, _nearest_scenes, _candidates, choose, refinement):
+        kept.cache_clear()
+
+
+@lru_cache(maxsize=1)
+def _by_scene() -> dict[str, list[Measured]]:
+    """The table's rows by the scene they were measured in. Kept, as every frame of a moving camera is a scene to choose for."""
+    found: dict[str, list[Measured]] = {}
+    for row in measurements():
+        found.setdefault(row.scene, []).append(row)
+    return found
+
+
+def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
+    for name in scenes:
+        yield from _by_scene()[name]
+
+
+def _measured(record: dict[str, str]) -> Measured | None:
+    """A row; None where it lacks what a choice needs."""
+    if record["model"] not in catalogue.keys("ray_model") or not record["direction_99"] or not record["cost_flat_ratio"]:
+        return None
+    numbers = {name: float(record[name]) for name in ("spin", "distance", "inclination_deg", "fov_deg")}
+    errors = {name: float(record[name] or 0.0) for name in ("step_length", "step_angle", "step_tolerance", "direction_99", "crossing_r_99", "wrong_fates", "evaluations")}
+    names = {name: record[name] for name in ("scene", "model", "integrator", "step_control")}
+    # tables from before there was refinement lack its columns
+    refined, cost_unrefined = record.get("refined") == "1", float(record.get("cost_unrefined") or 0.0)
+    return Measured(**names, **numbers, **errors, cost=float(record["cost_flat_ratio"]), refined=refined, cost_unrefined=cost_unrefined)
+
+
+def _not_measured(scene: Scene) -> str:
+    """Why the chart says nothing of `scene`; empty when it does."""
+    if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
+        return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
+    if not measurements():
+        return "no measurements are stored: plain steps"
+    return ""
+
+
+def _plainly(scene: Scene) -> Scene:
+    """`scene` with the exact general model for its hole and plain steps where it leaves them open."""
+    model = observer.ray_model(scene)
+    values = {
+        "rays.model": model.key,
+        "rays.integrator": "rk4" if scene.rays.integrator == AUTO else scene.rays.integrator,
+        "rays.step_control": model.traits.get("step_control", "radius") if scene.rays.step_control == AUTO else scene.rays.step_control,
+        "rays.step_length": scene.rays.step_length or _PLAIN_LENGTH,
+        "rays.step_angle": scene.rays.step_angle or _PLAIN_ANGLE,
+    }
+    return scene.with_values(values)
+
+
+def _stated(scene: Scene, best: Prediction) -> Scene:
+    """`scene` with the method of `best` written into it."""
+    method = best.method
+    values: dict[str, object] = {"rays.model": method.model}
+    if method.integrator:
+        values |= {"rays.integrator": method.integrator, "rays.step_control": method.step_control}
+        values |= {"rays.step_length": method.step_length or _PLAIN_LENGTH, "rays.step_angle": method.step_angle or _PLAIN_ANGLE}
+    if method.step_tolerance:
+        # an adaptive control starts from a long trial, as when it was measured, and shortens it where it must
+        values |= {f"rays.{method.step_control}.tolerance": method.step_tolerance, "rays.step_length": _TRIAL_LENGTH, "rays.step_angle": _TRIAL_ANGLE}
+    return _plainly(scene.with_values(values))
+
+
+def _fits(rays: Rays, spins: bool, row: Measured) -> bool:
+    model = catalogue.plug_ins("ray_model")[row.model]
+    if rays.model == AUTO and (spins and not model.traits["spins"] or model.traits["space_time"] == "flat"):
+        return False
+    angular = model.traits.get("marches_in") == "mino"
+    step, stated_step = (row.step_angle, rays.step_angle) if angular else (row.step_length, rays.step_length)
+    return (
+        rays.model in (AUTO, row.model)
+        and (not row.integrator or rays.integrator in (AUTO, row.integrator))
+        and (not row.integrator or rays.step_control in (AUTO, row.step_control))
+        and (not row.integrator or stated_step in (0.0, step))
+    )
+
+
+@lru_cache(maxsize=64)
+def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
+    """The measured scene that is `scene`, or the two that are most like it, the likest first."""
+    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _by_scene().items())
+    if not apart:
+        return ()
+    return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])
+
+
+def _distance(scene: Scene, row: Measured) -> float:
+    """How unlike two scenes are: in spin, in how large the hole is in the picture, in how deep the camera sits, in inclination."""
+    camera = scene.camera
+    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, camera.fov_deg)
+    there = _likeness(row.spin, row.distance, row.inclination_deg, row.fov_deg)
+    # A measured hole that spins says little of one that does not, and the other way round.
+    kind = 1.0 if (scene.hole.spin == 0.0) != (row.spin == 0.0) else 0.0
+    return kind + math.dist(here, there)
+
+
+def _likeness(spin: float, distance: float, inclination_deg: float, fov_deg: float) -> tuple[float, float, float, float]:
+    near = 1.0 / distance
+    return abs(spin), 0.3 * math.log10(max(2.6 * near, 2.6e-4) / math.radians(fov_deg)), 2.0 * near, 0.3 * abs(math.cos(math.radians(inclination_deg)))
+
+
+def _why(scene: Scene, best: Prediction, good: bool, floor: float) -> str:
+    expected = f"{best.error_px:.2g} px expected at 99 % of the pixels, {best.cost:.3g} flat frames"
+    if good:
+        return f"the cheapest measured method within {scene.rays.tolerance:g} px ({expected})"
+    return f"no measured method meets {scene.rays.tolerance:g} px here; this one is nearest ({expected}); the floor is {floor:.2g} px"

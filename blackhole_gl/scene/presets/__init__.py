@@ -1,0 +1,170 @@
+"""Presets: TOML files ↔ scenes.
+
+A preset is a TOML file: optional `title`, `description`, `group` and `rank` (its place in lists) at the top, then a table
+for each section of the scene::
+
+    title = "Kerr, a* = 0.6"
+    [hole]
+    spin = 0.6
+    [disk.turbulence]       # a plug-in's parameters
+    enabled = true          # the switch disk.turbulence itself; `turbulence = true` in [disk] says the same
+    strength = 0.8
+
+Presets are layered: physics, then look, then quality, then single values; the later one wins. A picture saved by us is a
+preset too. Whatever is wrong with one is a `PresetError` that names the file, the key, the value given and what is allowed.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ...output import png
+from ...resources import presets_dir, user_config_dir
+from .. import Scene, fields
+from ..schema import SceneError, Value
+from .reading import GROUPS, Preset, PresetError, check_value, message_of, parse, unknown_key
+from .writing import dumps, picture_text, save
+
+__all__ = [
+    "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "dumps", "from_png",
+    "load", "parse", "parse_assignments", "picture_text", "read", "save", "user_presets_dir",
+]
+
+USER_GROUP = "user"
+DEFAULT_PRESETS = ("kerr",)
+# What a preset of these groups leaves unsaid is the default preset's, not the bare scene's.
+_PARTIAL_GROUPS = ("look", "quality")
+
+
+@dataclass(frozen=True)
+class PresetInfo:
+    """One line of the list of presets; `group` is one of `GROUPS` or ``user``."""
+
+    group: str
+    name: str
+    title: str
+    description: str
+    path: Path
+
+
+def available() -> list[PresetInfo]:
+    """Every preset that has a name: the shipped ones group by group and by rank, then the user's own.
+
+    A user's file that cannot be read is listed with the reason as its description.
+    """
+    found = []
+    for name, path, shipped in _named():
+        try:
+            preset = read(path)
+        except PresetError as error:
+            preset = Preset(title=f"{name} (cannot be read)", description=str(error))
+        group = shipped or preset.group or USER_GROUP
+        place = (not shipped, (*GROUPS, USER_GROUP).index(group), preset.rank)
+        found.append((place, PresetInfo(group, name, preset.title or name, preset.description, path)))
+    return [info for _, info in sorted(found, key=lambda entry: entry[0])]
+
+
+def user_presets_dir() -> Path:
+    """Where the user's own presets lie; it need not exist."""
+    return user_config_dir() / "presets"
+
+
+def _named() -> list[tuple[str, Path, str]]:
+    """(name, path, shipped group or empty) of each preset; a shipped name comes first, because scripts rely on it."""
+    shipped = [(path.stem, path, group) for group in GROUPS for path in sorted((presets_dir() / group).glob("*.toml"))]
+    return shipped + [(path.stem, path, "") for path in sorted(user_presets_dir().glob("*.toml"))]
+
+
+def _find(name: str) -> tuple[Path, str]:
+    """Path and shipped group of the preset called `name`."""
+    named = _named()
+    for known, path, group in named:
+        if known == name:
+            return path, group
+    names = sorted({known for known, _, _ in named})
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.4)
+    hint = f"; did you mean {near[0]}?" if near else "."
+    raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in .toml or .png.")
+
+
+def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None) -> Scene:
+    """The scene that the presets say, each over the one before it, and `overrides` over all.
+
+    Where nothing but looks and qualities is named, they lie over `DEFAULT_PRESETS`.
+
+    Args:
+        names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``).
+        overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``.
+
+    Raises:
+        PresetError: see `read`; or an override is wrong.
+    """
+    wanted = [names_or_paths] if isinstance(names_or_paths, (str, Path)) else list(names_or_paths)
+    layers = [read(item) for item in wanted]
+    if all(layer.group in _PARTIAL_GROUPS for layer in layers):
+        layers = [read(item) for item in DEFAULT_PRESETS] + layers
+    values: dict[str, Value] = {}
+    for layer in layers:
+        values.update(layer.values)
+    for key, given in (overrides or {}).items():
+        values[key] = _override(key, given)
+    return Scene().with_values(values)
+
+
+def parse_assignments(assignments: Iterable[str]) -> dict[str, str]:
+    """``["disk.outer_radius=12"]`` as the overrides that `load` takes; of two for one key the later wins.
+
+    Raises:
+        PresetError: an assignment has no ``=`` or no key.
+    """
+    overrides = {}
+    for assignment in assignments:
+        key, equals, text = assignment.partition("=")
+        if not equals or not key.strip():
+            raise PresetError(f"got {assignment!r}; allowed is key=value, e.g. disk.outer_radius=12", source="--set")
+        overrides[key.strip()] = text.strip()
+    return overrides
+
+
+def from_png(path: str | Path) -> Scene:
+    """The scene of a picture saved by us.
+
+    Raises:
+        PresetError: no such picture, or it carries no preset, or one that this version cannot use.
+    """
+    return Scene().with_values(read(Path(path)).values)
+
+
+def read(name_or_path: str | Path) -> Preset:
+    """The preset of that name, or in that ``.toml`` file, or carried by that ``.png``.
+
+    Raises:
+        PresetError: not found, not readable, not TOML, or an entry that a scene does not have or cannot hold.
+    """
+    is_path = isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png"))
+    path, group = (Path(name_or_path), "") if is_path else _find(name_or_path)
+    source = str(path)
+    try:
+        text = png.read_scene_text(path) if path.suffix.lower() == ".png" else path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise PresetError(f"not UTF-8 text (byte {error.start}); save it as UTF-8", source=source) from None
+    except OSError as error:
+        raise PresetError(f"cannot be read: {error.strerror or error}", source=source) from None
+    except ValueError as error:
+        raise PresetError(str(error), source=source) from None
+    preset = parse(text, source)
+    return replace(preset, group=group or preset.group)
+
+
+def _override(key: str, given: Any) -> Value:
+    item = fields().get(key)
+    if item is None:
+        raise PresetError(unknown_key(key), key=key, source="--set")
+    try:
+        return item.parse(given) if isinstance(given, str) else check_value(item, given)
+    except SceneError as error:
+        raise PresetError(message_of(error), key=key, source="--set") from None

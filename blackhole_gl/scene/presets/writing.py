@@ -1,0 +1,84 @@
+"""Scene → TOML text and files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import metadata
+from pathlib import Path
+
+import tomlkit
+
+from ...output import files
+from .. import Scene, fields
+from ..schema import Field
+from .reading import GROUPS, SWITCH_ENTRY, PresetError, tables
+
+
+def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str = "", group: str = "") -> str:
+    """`scene` as a preset's TOML: what differs from the defaults, or with `full` everything, units as comments.
+
+    Reading it gives back exactly `scene`.
+    """
+    return _dump(scene, full, {"title": title, "description": description, "group": group})
+
+
+def picture_text(scene: Scene, time: float) -> str:
+    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a saved picture carries."""
+    return _dump(scene, True, {"time": float(time), "version": _version()})
+
+
+def save(scene: Scene, path: str | Path, *, title: str = "", description: str = "", group: str = "", full: bool = False) -> Path:
+    """Writes `scene` as a preset to `path`, whole or not at all, and returns the path.
+
+    Raises:
+        PresetError: `path` does not end in ``.toml``, cannot be written, or a text could not be read back.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".toml":
+        raise PresetError("a preset's file name ends in .toml", source=str(path))
+    if group and group not in GROUPS:
+        raise PresetError(f"got {group!r}; allowed is one of {', '.join(GROUPS)}", key="group", source=str(path))
+    try:
+        text = dumps(scene, full, title=title, description=description, group=group)
+        files.write_whole(path, text.encode("utf-8"))
+    except OSError as error:
+        raise PresetError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
+    except ValueError as error:
+        raise PresetError(f"cannot be written: {error}", source=str(path)) from None
+    return path
+
+
+def _version() -> str:
+    try:
+        return metadata.version("blackhole-gl")
+    except metadata.PackageNotFoundError:  # run from a checkout that is not installed
+        return "unknown"
+
+
+def _dump(scene: Scene, full: bool, about: Mapping[str, str | float]) -> str:
+    document = tomlkit.document()
+    for name, value in about.items():
+        if value != "":
+            document.add(name, value)
+    for table, entries in _entries_by_table(scene, full).items():
+        place = document
+        for part in table.split("."):
+            if part not in place:
+                place.add(part, tomlkit.table())
+            place = place[part]
+        for name, item in entries.items():
+            value = tomlkit.item(scene.get(item.key))
+            if full and item.unit:
+                value.comment(item.unit)
+            place.add(name, value)
+    return tomlkit.dumps(document)
+
+
+def _entries_by_table(scene: Scene, full: bool) -> dict[str, dict[str, Field]]:
+    """Table → name in it → field, for the fields to be written; empty tables are left out."""
+    entries: dict[str, dict[str, Field]] = {table: {} for table in tables()}
+    for key, item in fields().items():
+        if full or scene.get(key) != item.default:
+            table, name = (key, SWITCH_ENTRY) if key in entries else key.rsplit(".", 1)
+            entries[table][name] = item
+    return {table: items for table, items in entries.items() if items}

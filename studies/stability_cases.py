@@ -1,0 +1,400 @@
+"""Where methods fail: SPEC §9 as named cases with concrete initial conditions. Data alone; `stability` runs it.
+
+Lengths in r_s = 1, angles in radians. Rays are (N, 2) arrays of ψ (angle from the hole's centre) and χ (on the screen from right towards up).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+
+from blackhole_gl.physics import observer, relativity
+from blackhole_gl.scene import Scene
+
+HALF_PIXEL = 4e-4
+"""rad: half a pixel of a picture 1080 pixels and 45° high, the plan's tolerance. Up to it a direction is fine."""
+
+DEGREE = 2e-2
+"""rad: about a degree. A direction that errs by more has failed."""
+
+SHADOW_FINE, SHADOW_FAILS = 1e-3, 3e-2
+"""Relative error of a shadow's angle."""
+
+FLOOR = 5e-6
+"""rad: a float32 ray at the relative distance ε from the critical curve errs by up to FLOOR/ε, crossings included, where the march is
+Cartesian; by a tenth of it in Mino time. Typical are 3e-7/ε and 1e-7/ε (SPEC §9.6)."""
+
+# Eight screen directions: the four axes, where symmetries hide mistakes or make them, and four that lie on none.
+CHI = np.concatenate([0.5 * np.pi * np.arange(4), 0.5 * np.pi * np.arange(4) + 0.61])
+
+
+@dataclass(frozen=True)
+class Case:
+    """One way to go wrong.
+
+    Attributes:
+        key: its name.
+        entry: the entry of SPEC §9 it stands for, e.g. ``9.3``; ``new`` for those found since.
+        title: what is asked, in a few words.
+        why: what goes wrong in a method that fails.
+        measure: ``rays`` (fates, directions, crossings), ``shadow`` (the angle of its edge) or ``sweep`` (random scenes: finite and resolved).
+        values: scene values, by key, on top of the reference quality.
+        rays: the rays of the scene; None for the other measures.
+        floor: error in rad that float32 alone may make here, or that does not count; π where fates alone are judged.
+        fates: whether a wrong fate counts; not where the critical curve is nearer than float32 numbers lie apart.
+        needs: ``spin`` or ``steps`` where a model without has nothing to show; empty otherwise.
+    """
+
+    key: str
+    entry: str
+    title: str
+    why: str
+    measure: Literal["rays", "shadow", "sweep"] = "rays"
+    values: Mapping[str, Any] = field(default_factory=dict)
+    rays: Callable[[Scene], np.ndarray] | None = None
+    floor: float = 0.0
+    fates: bool = True
+    needs: Literal["", "spin", "steps"] = ""
+
+
+def grid(psi: Any, chi: Any = CHI) -> np.ndarray:
+    """Every ψ at every χ, (N, 2)."""
+    psi, chi = np.meshgrid(np.atleast_1d(psi), np.atleast_1d(chi))
+    return np.stack([psi.ravel(), chi.ravel()], axis=-1)
+
+
+def listed(psi: Any, chi: Any = CHI) -> Callable[[Scene], np.ndarray]:
+    """The same rays in every scene."""
+    return lambda scene: grid(psi, chi)
+
+
+def impact(*b: float, inward: bool = True) -> Callable[[Scene], np.ndarray]:
+    """Rays with impact parameters `b` (r_s) of a static observer in Schwarzschild."""
+
+    def rays(scene: Scene) -> np.ndarray:
+        r = scene.camera.distance
+        psi = np.arcsin(np.array(b) * math.sqrt(1.0 - 1.0 / r) / r)
+        return grid(psi if inward else np.pi - psi)
+
+    return rays
+
+
+def beside_shadow(*epsilon: float) -> Callable[[Scene], np.ndarray]:
+    """Rays at ψ = ψ_c(χ)·(1 + ε), by the closed form of the shadow's edge."""
+
+    def rays(scene: Scene) -> np.ndarray:
+        edge = shadow_edge(scene, CHI)
+        return np.concatenate([np.stack([edge * (1.0 + e), CHI], axis=-1) for e in epsilon])
+
+    return rays
+
+
+def whole_sky(count: int, reach: float = math.pi, away: float = 1e-2) -> Callable[[Scene], np.ndarray]:
+    """`count` rays spread evenly over ψ < `reach`, none nearer than `away` (relative) to the critical curve. The golden ratio's sequence, no chance."""
+
+    def rays(scene: Scene) -> np.ndarray:
+        k = np.arange(2 * count)
+        psi = reach * (k + 0.5) / (2 * count)
+        chi = 2.0 * np.pi * np.mod(k * 0.6180339887498949, 1.0)
+        kept = np.abs(psi / shadow_edge(scene, chi) - 1.0) >= away
+        chosen = np.flatnonzero(kept)
+        return np.stack([psi, chi], axis=-1)[chosen[:: max(1, len(chosen) // count)][:count]]
+
+    return rays
+
+
+def shadow_edge(scene: Scene, chi: np.ndarray) -> np.ndarray:
+    """ψ of the shadow's edge that the scene's true space-time has: Kerr's, with the spin that its model knows."""
+    camera, spin = scene.camera, observer.effective_spin(scene)
+    kind = camera.observer if camera.observer == "zamo" or _may_rest(scene, spin) else "zamo"
+    return _edge(chi.tobytes(), camera.distance, math.radians(camera.inclination_deg), spin, kind)
+
+
+@cache
+def _edge(chi: bytes, distance: float, theta: float, spin: float, kind: str) -> np.ndarray:
+    """The same edges serve every method."""
+    return relativity.shadow_angle(np.frombuffer(chi), distance, theta, spin, kind)
+
+
+def _may_rest(scene: Scene, spin: float) -> bool:
+    """Whether a static observer is possible: outside the ergosphere."""
+    r, a_cos = 2.0 * scene.camera.distance, spin * math.cos(math.radians(scene.camera.inclination_deg))
+    return r * r - 2.0 * r + a_cos * a_cos > 0.0
+
+
+def _camera(distance: float, inclination: float = 80.0, spin: float = 0.0, **more: Any) -> dict[str, Any]:
+    values = {"camera.distance": distance, "camera.inclination_deg": inclination, "hole.spin": spin}
+    return {**values, **{key.replace("__", "."): value for key, value in more.items()}}
+
+
+def _coarse(step: float) -> dict[str, Any]:
+    """Steps of `step` r_s from a camera at 20; models that step by an angle take their coarsest."""
+    return _camera(20.0, rays__step_length=step, rays__step_angle=0.8)
+
+
+def _critical(power: int) -> Case:
+    epsilon = 10.0**-power
+    return Case(
+        f"critical-1e-{power}",
+        "9.6",
+        f"ε = ±1e-{power} from the critical curve, from 20 r_s",
+        f"Errors grow as 1/ε: up to {min(FLOOR / epsilon, math.pi):.0e} rad is float32's own share.",
+        values=_camera(20.0),
+        rays=beside_shadow(epsilon, -epsilon),
+        floor=min(FLOOR / epsilon, math.pi),
+        fates=epsilon >= 1e-6,
+    )
+
+
+_TUNNEL = "A step that leaps the horizon comes out on the far side: a ray that is lost is seen to escape."
+_PLANE = "The ray never leaves z = 0: heights of ±0 turn into crossings, and angles above the plane into 0/0."
+_POLE = "In (θ, φ) coordinates φ jumps by π at the pole and 1/sin θ has no bound."
+_HORIZON = "Redshift and shadow diverge: 1 − 1/r loses all its digits."
+
+CASES: tuple[Case, ...] = (
+    Case("shadow-15", "9.1", "Shadow's size for a static observer at 15 r_s", "Without √(1 − 1/R) in the observer's frame: 3.4 % too large.", "shadow", _camera(15.0)),
+    Case("shadow-3", "9.1", "The same at 3 r_s", "Without the observer's frame: 13 % too large.", "shadow", _camera(3.0)),
+    Case(
+        "shadow-far",
+        "9.2",
+        "Shadow's size from 1000 r_s",
+        "No observer's frame to speak of: what is wrong here is the force law. Published viewers are 30 % off either way.",
+        "shadow",
+        _camera(1000.0),
+    ),
+    Case(
+        "weak-far",
+        "9.2",
+        "Deflection at b = 100 and 300 r_s, from 1000 r_s",
+        "4GM/c²b is right; the post-Newtonian force bends half as much again.",
+        values=_camera(1000.0),
+        rays=impact(100.0, 300.0),
+    ),
+    Case(
+        "bend-10",
+        "9.2",
+        "Deflection at b = 5, 10 and 20 r_s, from 100 r_s",
+        "First orders in r_s/b end here, and a wrong force shows in degrees.",
+        values=_camera(100.0),
+        rays=impact(5.0, 10.0, 20.0),
+    ),
+    Case("radial-in", "9.3", "Exactly towards the hole", "L = 0: Binet's equation has no angle to march in.", values=_camera(20.0), rays=listed(0.0)),
+    Case("radial-out", "9.3", "Exactly away from the hole", "As above, and the ray's plane is undefined.", values=_camera(20.0), rays=listed(np.pi)),
+    Case(
+        "near-radial",
+        "9.3",
+        "0.006° and 6e-6° from both",
+        "The ray's plane is the difference of two nearly equal directions.",
+        values=_camera(20.0),
+        rays=listed([1e-4, 1e-7, np.pi - 1e-4, np.pi - 1e-7]),
+    ),
+    Case(
+        "tangential",
+        "9.3",
+        "Across, and 0.006° inwards and outwards of it",
+        "u' = −u cot ψ passes zero: first-order forms choose the wrong root.",
+        values=_camera(20.0),
+        rays=listed([0.5 * np.pi, 0.5 * np.pi - 1e-4, 0.5 * np.pi + 1e-4, 0.6 * np.pi]),
+    ),
+    Case("tunnel-1", "9.4", "Steps of 1 r_s, b = 0.5", _TUNNEL, values=_coarse(1.0), rays=impact(0.5), needs="steps", floor=math.pi),
+    Case("tunnel-1.5", "9.4", "Steps of 1.5 r_s, b = 1.5", _TUNNEL, values=_coarse(1.5), rays=impact(1.5), needs="steps", floor=math.pi),
+    Case("tunnel-2", "9.4", "Steps of 2 r_s, b = 2.4", _TUNNEL, values=_coarse(2.0), rays=impact(2.4), needs="steps", floor=math.pi),
+    Case(
+        "false-capture",
+        "9.4",
+        "Steps of 1 r_s, b = b_c (1 + 1e-4)",
+        "Truncation errors near the photon sphere push a ray in that should turn.",
+        values=_coarse(1.0),
+        rays=impact(relativity.CRITICAL_IMPACT * (1.0 + 1e-4)),
+        needs="steps",
+        floor=math.pi,
+    ),
+    Case(
+        "disk-jump",
+        "9.4",
+        "Steps of 1 r_s over a thin disk seen from 85°",
+        "A step that crosses the plane twice, or a position read off one end of the step, loses the disk.",
+        values={**_coarse(1.0), "camera.inclination_deg": 85.0},
+        rays=whole_sky(64, 0.6, 0.05),
+        needs="steps",
+        floor=0.1,
+    ),
+    Case(
+        "stop-radius",
+        "9.5",
+        "Escape directions at b = 5…18 r_s from 20 r_s",
+        "Where a march stops the ray is still bending: up to 2/R rad is missing.",
+        values=_camera(20.0),
+        rays=impact(5.0, 10.0, 14.0, 18.0),
+    ),
+    Case(
+        "stop-radius-outward",
+        "9.5",
+        "Rays that are outward bound from 10 r_s",
+        "The same for rays that are outward bound from the start.",
+        values=_camera(10.0),
+        rays=impact(1.0, 4.0, 8.0, 10.0, inward=False),
+    ),
+    *(_critical(power) for power in range(2, 8)),
+    Case(
+        "critical-kerr",
+        "9.6",
+        "ε = ±1e-3 from the critical curve at a* = 0.9",
+        "As above, where both turning points are near each other.",
+        values=_camera(20.0, spin=0.9),
+        rays=beside_shadow(1e-3, -1e-3),
+        floor=FLOOR / 1e-3,
+        needs="spin",
+    ),
+    Case(
+        "too-many-steps",
+        "9.6",
+        "ε = ±1e-4 with steps a fifth as long as the reference's",
+        "Each step rounds: near the critical curve more steps make float32 worse, not better.",
+        values=_camera(20.0, rays__step_angle=0.01, rays__step_length=0.028, rays__max_steps=30000),
+        rays=beside_shadow(1e-4, -1e-4),
+        floor=5.0 * FLOOR / 1e-4,
+        needs="steps",
+    ),
+    Case(
+        "inside-shadow",
+        "9.7",
+        "Shadow's size from 1.2 r_s, inside the photon sphere",
+        "“b < b_c is captured” is false here; the shadow is larger than half the sky.",
+        "shadow",
+        _camera(1.2),
+    ),
+    Case("inside-sky", "9.7", "The whole sky from 1.2 r_s", "As above.", values=_camera(1.2, 60.0), rays=whole_sky(64)),
+    Case(
+        "pole",
+        "9.8",
+        "Rays over the poles, a* = 0",
+        _POLE,
+        values=_camera(20.0, 30.0),
+        rays=listed([0.05, 0.2, 0.28, 0.4, 1.0, 2.0], [0.5 * np.pi, 1.5 * np.pi]),
+    ),
+    Case(
+        "pole-kerr",
+        "9.8",
+        "Rays of no angular momentum over the poles, a* = 0.9",
+        _POLE,
+        values=_camera(20.0, 30.0, 0.9, camera__observer="zamo"),
+        rays=listed([0.05, 0.2, 0.28, 0.4, 1.0, 2.0], [0.5 * np.pi, 1.5 * np.pi]),
+        needs="spin",
+    ),
+    Case(
+        "horizon-kerr",
+        "9.8",
+        "The whole sky from 5 r_s at a* = 0.9: turning points and the horizon",
+        "Boyer–Lindquist φ winds up at the horizon; forms with ±√ stick at turning points.",
+        values=_camera(5.0, 60.0, 0.9),
+        rays=whole_sky(96),
+        needs="spin",
+    ),
+    Case(
+        "flat-side",
+        "9.8",
+        "The shadow's outline at a* = 0.95 from the plane",
+        "Ingoing coordinates for backward rays put its flat side where the disk recedes.",
+        "shadow",
+        _camera(20.0, 90.0, 0.95),
+        needs="spin",
+    ),
+    Case(
+        "in-plane",
+        "9.9",
+        "Looking along the equatorial plane, a* = 0",
+        _PLANE,
+        values=_camera(20.0, 90.0),
+        rays=listed([0.0, 0.05, 0.2, 0.5, 2.0], [0.0, np.pi]),
+    ),
+    Case(
+        "in-plane-kerr",
+        "9.9",
+        "The same at a* = 0.9",
+        _PLANE,
+        values=_camera(20.0, 90.0, 0.9),
+        rays=listed([0.0, 0.05, 0.25, 0.5, 2.0], [0.0, np.pi]),
+        needs="spin",
+    ),
+    Case(
+        "near-plane",
+        "9.9",
+        "Camera at 89.99°",
+        "Rays graze the disk: a crossing's place is known to no more than rounding over the angle.",
+        values=_camera(20.0, 89.99),
+        rays=whole_sky(64, 0.6, 0.02),
+        floor=2e-3,
+    ),
+    Case("axis", "9.9", "Camera on the axis", _POLE, values=_camera(20.0, 0.0), rays=whole_sky(64)),
+    Case("axis-kerr", "9.9", "Camera on the axis, below, at a* = 0.9", _POLE, values=_camera(20.0, 180.0, 0.9), rays=whole_sky(64), needs="spin"),
+    Case(
+        "ergosphere",
+        "9.9",
+        "Camera in the ergosphere: 0.85 r_s at a* = 0.9",
+        "No observer can rest here: a static tetrad has no real γ, and light of negative energy arrives.",
+        values=_camera(0.85, 85.0, 0.9),
+        rays=whole_sky(64),
+        needs="spin",
+    ),
+    Case("horizon", "9.9", "Camera at 1.0001 r_s", _HORIZON, values=_camera(1.0001, 60.0), rays=whole_sky(64, away=3e-2)),
+    Case(
+        "horizon-spinning",
+        "9.9",
+        "Camera a thousandth above the horizon of a* = 0.998",
+        _HORIZON,
+        values=_camera(0.5321, 60.0, 0.998),
+        rays=whole_sky(64, away=3e-2),
+        needs="spin",
+    ),
+    Case(
+        "far-camera",
+        "9.9",
+        "Camera at 10⁴ r_s, b = 2…50 r_s",
+        "Places far away leave float32 no digits near the hole.",
+        values=_camera(1e4),
+        rays=impact(2.0, 2.7, 5.0, 20.0, 50.0),
+    ),
+    Case("spin-tiny", "9.10", "a* = 1e-8", "Closed forms that divide by a.", values=_camera(10.0, 60.0, 1e-8), rays=whole_sky(64), needs="spin"),
+    Case(
+        "spin-limit",
+        "9.10",
+        "a* = 0.9999, from 5 r_s",
+        "√(1 − a²) and the throat it leaves.",
+        values=_camera(5.0, 75.0, 0.9999),
+        rays=whole_sky(96),
+        needs="spin",
+        floor=2e-3,
+    ),
+    Case(
+        "spin-limit-reversed",
+        "9.10",
+        "a* = −0.9999, from 5 r_s",
+        "The same, turning the other way.",
+        values=_camera(5.0, 75.0, -0.9999),
+        rays=whole_sky(96),
+        needs="spin",
+        floor=2e-3,
+    ),
+    Case(
+        "sweep",
+        "new",
+        "Random rays over the whole sky and the whole range of physical scenes",
+        "Whatever nobody thought of: rays without a fate, or not finite.",
+        "sweep",
+    ),
+    Case(
+        "sweep-art",
+        "new",
+        "The same with artistic gravity (0.1–10) and horizon (0.01–1 r_s)",
+        "Strong gravity with a small horizon leaves rays that wind without end.",
+        "sweep",
+        {"hole.gravity_strength": 10.0},
+        needs="steps",
+    ),
+)
