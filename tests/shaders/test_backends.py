@@ -15,7 +15,7 @@ from blackhole_gl.render import context
 TRACE = """
 import sys
 import numpy as np
-from blackhole_gl import presets
+from blackhole_gl.scene import presets
 from blackhole_gl.render.context import create_headless, describe
 from blackhole_gl.render.frame import Renderer
 
