@@ -13,7 +13,8 @@ import numpy as np
 
 from . import reference
 from .output.files import write_whole
-from .physics import observer, relativity
+from .physics import observer
+from .physics.space_time import ray_model, space_time
 from .render.frame import Renderer
 from .scene import Scene
 
@@ -101,7 +102,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> Trace
     r = np.hypot(hits.crossing[..., 0].astype(float), hits.crossing[..., 1])
     phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
     none = r == 0.0
-    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
+    isco = ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
     return TracedRays(
         hits.fate,
         np.where((hits.fate == 1)[:, None], hits.direction.astype(float), np.nan),
@@ -117,12 +118,12 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
     """`rays` (N, 2) by the float64 twin of the scene's ray model."""
     if len(rays) == 0:
         return _nothing()
-    camera, model = scene.camera, observer.ray_model(scene)
+    camera, model = scene.camera, ray_model(scene)
     given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
     parameters = {name: scene.get(key) for name, key in _TWIN_PARAMETERS.get(scene.rays.model, {}).items()}
     found = reference.trace(
         model.traits.get("twin", model.key),
-        spin=observer.effective_spin(scene),
+        spin=space_time(scene).spin,
         distance=camera.distance,
         inclination_deg=camera.inclination_deg,
         azimuth_deg=camera.azimuth_deg,

@@ -46,8 +46,8 @@ void main() {
     cell |= crossing_kind(third, trusted, disk) << 6;
 #endif
     // The hole's own cells are always traced: from far away it can be smaller than a cell.
-    vec2 from_centre = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - 0.5 * picture_size);
-    trusted = trusted && max(from_centre.x, from_centre.y) > float(REFINE_STEP);
+    vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);
+    trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
     cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
     float shared_class = disk ? 0.15 : flat_sky ? 0.75 : fate == uint(ESCAPED) ? 0.25 : 0.5;

@@ -20,7 +20,8 @@ def displacement_px(scene: Scene, found: HitArrays, exact: HitArrays) -> np.ndar
     """
     height = found.fate.shape[0]
     pixel = math.radians(scene.camera.fov_deg) / height
-    edges = plan.effective_disk_radii(scene)
+    made = plan.plan(scene)
+    edges = made.disk_inner, made.disk_outer
     escaped = (found.fate == 1) & (exact.fate == 1)
     moved = np.where(escaped, np.linalg.norm(found.direction - exact.direction, axis=-1), 0.0)
     for n in range(3):

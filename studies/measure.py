@@ -192,27 +192,23 @@ def _costs(renderer: Renderer, base: Scene, scenes: list[Scene], timings: Timing
     The shortest time of each counts: what else a machine does can only lengthen a frame.
     """
     flat = timing.flat_scene(base)
-    tasks = [(scene, plan.plan(scene)) for scene in scenes]
-    flat_task = (flat, plan.plan(flat))
-    for task in (flat_task, tasks[0]):
-        _seconds(renderer, task, timings.size)  # drivers compile at the first draw
-    taken: list[list[float]] = [[] for _ in tasks]
-    yard: list[list[float]] = [[] for _ in tasks]
+    plans, flat_plan = [plan.plan(scene) for scene in scenes], plan.plan(flat)
+    for made in (flat_plan, plans[0]):
+        renderer.time_trace(made, timings.size)  # drivers compile at the first draw
+    taken: list[list[float]] = [[] for _ in plans]
+    yard: list[list[float]] = [[] for _ in plans]
     for round_ in range(timings.rounds):
-        for index, task in enumerate(tasks):
+        for index, made in enumerate(plans):
             if round_ and min(taken[index]) > _LONG_FRAME:
                 continue
-            yard[index].append(min(_seconds(renderer, flat_task, timings.size) for _ in range(2)))
-            seconds = _seconds(renderer, task, timings.size)
+            yard[index].append(min(renderer.time_trace(flat_plan, timings.size) for _ in range(2)))
+            seconds = renderer.time_trace(made, timings.size)
             if seconds < _SHORT_FRAME:
-                seconds = min([seconds, *(_seconds(renderer, task, timings.size) for _ in range(1, timings.tries))])
+                seconds = min([seconds, *(renderer.time_trace(made, timings.size) for _ in range(1, timings.tries))])
             taken[index].append(seconds)
     shortest_flat = min(min(times) for times in yard)
     return [_timing(a, b, shortest_flat) for a, b in zip(taken, yard)]
 
-
-def _seconds(renderer: Renderer, task: tuple[Scene, plan.RayPlan], size: tuple[int, int]) -> float:
-    return renderer.time_trace(task[0], size, task[1])
 
 
 def _timing(seconds: list[float], flat: list[float], shortest_flat: float) -> timing.Timing:

@@ -55,7 +55,7 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     if plan_table is not None:
         table.write_contract(plan_table, by_work(rows), where)
         choice.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
-        choice.forget_choices()
+        plan.forget_measurements()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
     found = page.Findings(scenes, rows, points, costs, validation, best, chosen, table.read(outside) if outside.exists() else [])
@@ -78,7 +78,7 @@ def plan_choices(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> dict[str,
     found = {}
     for chart_scene in scenes:
         if choice.is_open(chart_scene.scene):
-            chosen = plan.resolved(chart_scene.scene)
+            chosen = plan.plan(chart_scene.scene).scene
             found |= {row.scene: row for row in rows if row.scene == chart_scene.name and _is_method_of(row, chosen)}
     return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from blackhole_gl import plan
 from blackhole_gl.measure import timing
 from blackhole_gl.measure.methods import Method
 from blackhole_gl.measure.refined import refined_plan
@@ -37,11 +38,12 @@ COLUMNS = tuple(Cost.__dataclass_fields__)
 
 def costs(renderer: Renderer, scene: Scene, quick: bool) -> list[Cost]:
     """Costs of some methods in `scene` at several sizes, each interleaved with the flat frame."""
-    tasks = {name: method.applied(scene, setting) for name, (method, setting) in _METHODS.items()}
+    scenes = {name: method.applied(scene, setting) for name, (method, setting) in _METHODS.items()}
     found = []
     for size in SIZES[:3] if quick else SIZES:
-        work = timing.tasks({"flat": timing.flat_scene(scene), **tasks}) | {"300 Euler steps": timing.euler_task(scene)}
-        moving = {name: (tasks[name], refined_plan(tasks[name])) for name, (method, _) in _METHODS.items() if method.refined}
+        work = {name: plan.plan(asked) for name, asked in {"flat": timing.flat_scene(scene), **scenes}.items()}
+        work["300 Euler steps"] = timing.euler_plan(scene)
+        moving = {name: refined_plan(scenes[name]) for name, (method, _) in _METHODS.items() if method.refined}
         for name, taken in timing.interleaved(renderer, work | moving, size, "flat", rounds=3, refined=moving).items():
             found.append(Cost(name, *size, taken.milliseconds, taken.ratio))
     return found

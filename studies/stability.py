@@ -17,6 +17,7 @@ import numpy as np
 from blackhole_gl import reference
 from blackhole_gl.measure.methods import Method
 from blackhole_gl.physics import observer, relativity
+from blackhole_gl.physics.space_time import ray_model, space_time
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_map import HitArrays
 from blackhole_gl.scene import Scene, catalogue, presets
@@ -145,13 +146,13 @@ def _judge_rays(renderer: Renderer, scene: Scene, case: Case) -> Outcome:
 
 def _true_model(scene: Scene) -> tuple[str, float]:
     """(twin, a*) of the space-time that the scene's model is meant to show."""
-    spin = observer.effective_spin(scene)
+    spin = space_time(scene).spin
     return ("kerr" if spin else "schwarzschild") if _is_curved(scene) else "flat", spin
 
 
 def _is_curved(scene: Scene) -> bool:
     """Whether the scene's model is meant to show a hole: all but the one that is exact in flat space."""
-    facts = observer.ray_model(scene).traits
+    facts = ray_model(scene).traits
     return not (facts["exact"] and facts["space_time"] == "flat")
 
 
@@ -174,7 +175,7 @@ def _not_finite(hits: HitArrays) -> int:
 
 def _crossing_errors(scene: Scene, hits: HitArrays, truth: reference.ReferenceHits) -> tuple[float, int]:
     """(largest displacement over r, crossings lost or made up) of the crossings whose place is well defined."""
-    horizon = float(relativity.horizon_radius(observer.effective_spin(scene)))
+    horizon = float(relativity.horizon_radius(space_time(scene).spin))
     low, high = _CROSSING_RANGE[0] * horizon, _CROSSING_RANGE[1]
     found = hits.crossing.astype(float)
     radius = np.hypot(found[..., 0], found[..., 1])

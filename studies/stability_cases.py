@@ -13,7 +13,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from blackhole_gl.physics import observer, relativity
+from blackhole_gl.physics import relativity
+from blackhole_gl.physics.space_time import space_time
 from blackhole_gl.scene import Scene
 
 HALF_PIXEL = 4e-4
@@ -110,7 +111,7 @@ def whole_sky(count: int, reach: float = math.pi, away: float = 1e-2) -> Callabl
 
 def shadow_edge(scene: Scene, chi: np.ndarray) -> np.ndarray:
     """ψ of the shadow's edge that the scene's true space-time has: Kerr's, with the spin that its model knows."""
-    camera, spin = scene.camera, observer.effective_spin(scene)
+    camera, spin = scene.camera, space_time(scene).spin
     kind = camera.observer if camera.observer == "zamo" or _may_rest(scene, spin) else "zamo"
     return _edge(chi.tobytes(), camera.distance, math.radians(camera.inclination_deg), spin, kind)
 

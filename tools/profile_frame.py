@@ -9,7 +9,6 @@ rounds counts: what else a machine does can only lengthen a draw.
 from __future__ import annotations
 
 import argparse
-import sys
 import time as clock
 from collections import defaultdict
 
@@ -28,18 +27,16 @@ class Profile:
         self._path: dict[int, str] = {}
         self.times: dict[str, list[tuple[float, float]]] = defaultdict(list)
         self._name_programs(renderer.programs)
-        plain = programs.draw
-        for module in list(sys.modules.values()):
-            if getattr(module, "draw", None) is plain:
-                module.draw = lambda triangle: self.timed(self._path.get(id(triangle), "?"), lambda: plain(triangle))
+        plain = programs.Draw.draw
+        programs.Draw.draw = lambda prepared: self.timed(self._path.get(prepared.serial, "?"), lambda: plain(prepared))
 
     def _name_programs(self, kept: programs.Programs) -> None:
         plain = kept.get
 
         def named(path, *arguments, **more):
-            triangle = plain(path, *arguments, **more)
-            self._path[id(triangle)] = path
-            return triangle
+            prepared = plain(path, *arguments, **more)
+            self._path[prepared.serial] = path
+            return prepared
 
         kept.get = named
 

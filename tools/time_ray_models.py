@@ -37,9 +37,9 @@ def least_costs(renderer: Renderer, ways: dict[str, Scene], rounds: int) -> dict
     plans = {way: plan.plan(scene) for way, scene in ways.items()}
     found = {way: float("inf") for way in ways}
     for counted in range(-1, rounds):
-        for way, scene in ways.items():
+        for way in ways:
             begin = time.process_time()
-            renderer.time_trace(scene, SIZE, plans[way])
+            renderer.time_trace(plans[way], SIZE)
             if counted >= 0:
                 found[way] = min(found[way], 1e3 * (time.process_time() - begin))
     return found

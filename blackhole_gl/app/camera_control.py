@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ..physics import observer, relativity
+from ..physics.space_time import space_time
 from ..scene import Scene, fields
 from ..scene.schema import Field
 
@@ -83,7 +83,7 @@ def _is_near(a: Pose, b: Pose) -> bool:
 
 def horizon_radius(scene: Scene) -> float:
     """The outer horizon r_+ in r_s of what the ray model shows, which zooming approaches and never passes."""
-    return float(relativity.horizon_radius(observer.horizon_spin(scene)))
+    return space_time(scene).horizon_radius
 
 
 def pose_of(scene: Scene) -> Pose:

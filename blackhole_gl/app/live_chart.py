@@ -13,7 +13,7 @@ from imgui_bundle import ImVec4, hello_imgui, imgui, implot
 from .. import plan
 from ..measure import live
 from ..measure.live import Live, LivePoint
-from ..plan import RayPlan
+from ..plan import Plan
 from ..scene import Scene, SceneError, catalogue
 from . import theme
 from .state import WindowState
@@ -142,7 +142,7 @@ def use(point: LivePoint, state: WindowState) -> None:
     state.say(f"Traced by {label(point)}")
 
 
-def is_used(point: LivePoint, scene: Scene, ray_plan: RayPlan) -> bool:
+def is_used(point: LivePoint, scene: Scene, ray_plan: Plan) -> bool:
     """Whether `ray_plan`, that of `scene`, is the point's method with its step."""
     method = point.method
     if ray_plan.model.key != method.model or any(scene.get(key) != value for key, value in method.changes):

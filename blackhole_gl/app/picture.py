@@ -99,17 +99,17 @@ class _Method:
     @classmethod
     def of(cls, asked: Scene, drawn: Scene) -> _Method:
         """That of `asked`, which was drawn as `drawn`."""
-        return cls(asked, plan.resolved(drawn))
+        return cls(asked, plan.plan(drawn).scene)
 
     def stated_in(self, scene: Scene) -> Scene | None:
         """`scene` traced in this way; None unless it is the scene asked for with another camera or hole, and of the same space-time."""
-        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or plan.resolved(scene).rays.model != self.stated.rays.model:
+        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or plan.plan(scene).scene.rays.model != self.stated.rays.model:
             return None
         return replace(scene, rays=self.stated.rays, parameters=self.stated.parameters)
 
     def bridges(self, scene: Scene) -> bool:
         """Whether `scene`, some program of which is missing, may be drawn in this way meanwhile: only where it is its method that is new."""
-        return self.stated_in(scene) is not None and plan.resolved(scene).rays != self.stated.rays
+        return self.stated_in(scene) is not None and plan.plan(scene).scene.rays != self.stated.rays
 
 
 @dataclass(frozen=True)

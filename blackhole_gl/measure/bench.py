@@ -108,7 +108,7 @@ def measure(
     euler_ms: list[float] = []
     for done, size in enumerate(sizes):
         for half, motion in enumerate(("still", "moving")):
-            yardstick = timing.euler_task(scene) if euler and motion == "moving" and size == EULER_SIZE else None
+            yardstick = timing.euler_plan(scene) if euler and motion == "moving" and size == EULER_SIZE else None
             rows += _rows(renderer, compared, motion, size, rounds, yardstick, euler_ms)
             if progress is not None:
                 progress((done + 0.5 * (half + 1)) / len(sizes))
@@ -137,7 +137,7 @@ def _rows(
     motion: str,
     size: tuple[int, int],
     rounds: int,
-    yardstick: tuple[Scene, plan.RayPlan] | None,
+    yardstick: plan.Plan | None,
     euler_ms: list[float],
 ) -> list[Frames]:
     """The rows of one size and motion; E of every round, where there is a `yardstick`, is put into `euler_ms`."""
@@ -146,7 +146,7 @@ def _rows(
     own_rays: dict[str, float] = {}
     for counted in range(-1, rounds):
         if yardstick is not None:
-            seconds = renderer.time_trace(yardstick[0], size, yardstick[1])
+            seconds = renderer.time_trace(yardstick, size)
             if counted >= 0:
                 euler_ms.append(1e3 * seconds)
         for name, scene in compared.items():

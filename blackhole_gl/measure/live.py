@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import listed_rays
+from .. import listed_rays, plan
 from ..listed_rays import TracedRays
 from ..render.frame import Renderer
 from ..scene import Scene
@@ -129,10 +129,11 @@ class Live:
 
     def _measure(self, renderer: Renderer, method: Method, setting: float, truth: _Truth) -> Iterator[None]:
         """One point; pauses after every bit."""
-        scene, flat = method.applied(self.scene, setting), timing.flat_scene(self.scene)
+        scene = method.applied(self.scene, setting)
+        made, flat = plan.plan(scene), plan.plan(timing.flat_scene(self.scene))
         if method not in self._compiled:  # drivers compile at the first draw
             self._compiled.add(method)
-            for unmeasured in (flat, scene):
+            for unmeasured in (flat, made):
                 renderer.time_trace(unmeasured, _SIZE)
                 yield
         found = listed_rays.trace_by_shader(renderer, scene, truth.rays)
@@ -140,7 +141,7 @@ class Live:
         ratios = []
         for _ in range(_TRIALS):
             yard = min(renderer.time_trace(flat, _SIZE) for _ in range(2))
-            ratios.append(renderer.time_trace(scene, _SIZE) / yard)
+            ratios.append(renderer.time_trace(made, _SIZE) / yard)
             yield
         errors = compare(found, truth.traced, truth.apart)
         pixel = ChartScene("view", self.scene).pixel

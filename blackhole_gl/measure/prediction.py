@@ -31,11 +31,11 @@ def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
         ValueError: the scene's gravity is artistic: there is no truth to compare with.
     """
     _refuse_art(scene)
-    stated = plan.resolved(scene)
+    stated = plan.plan(scene).scene
     place = ChartScene("measured", scene, rays)
     found = listed_rays.trace_by_shader(renderer, stated, place.rays)
     errors = compare(found, place.truth, place.epsilon >= NEAR_CRITICAL)
-    work = timing.tasks({"plan": stated, "flat": timing.flat_scene(stated)})
+    work = {"plan": plan.plan(stated), "flat": plan.plan(timing.flat_scene(stated))}
     cost = timing.interleaved(renderer, work, _SIZE, "flat", _ROUNDS)["plan"].ratio
     return Outcome(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
 
@@ -47,10 +47,10 @@ def measured_refined(renderer: Renderer, scene: Scene, pixels: int = 2000) -> ch
         ValueError: as `measured`.
     """
     _refuse_art(scene)
-    stated = plan.resolved(scene)
+    stated = plan.plan(scene).scene
     errors = refined.errors(renderer, ChartScene("measured", scene, pixels), stated)
-    made, flat = refined.refined_plan(stated), timing.flat_scene(stated)
-    work = {"flat": (flat, plan.plan(flat)), "refined": (stated, made), "every pixel": (stated, made)}
+    made = refined.refined_plan(stated)
+    work = {"flat": plan.plan(timing.flat_scene(stated)), "refined": made, "every pixel": made}
     cost = timing.interleaved(renderer, work, choice.REFINED_SIZE, "flat", _ROUNDS, refined=("refined",))
     error_px = choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1])
     return choice.Refinement(error_px, cost["refined"].ratio, cost["every pixel"].ratio)

@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import plan
 from ..listed_rays import TracedRays
-from ..physics import observer, relativity
-from ..plan import REFINE_STEP, RayPlan
+from ..physics import relativity
+from ..plan import REFINE_STEP, Plan
 from ..plan.choice import REFINED_SIZE
 from ..render.frame import Renderer
 from ..scene import Scene
@@ -27,7 +27,7 @@ _UNSEEN = 1e5
 """r_s; beyond any crossing: what stands for one that is off the disk (shaders/common/hit_map_read.glsl)."""
 
 
-def refined_plan(scene: Scene, keep_crossings: bool = False) -> RayPlan:
+def refined_plan(scene: Scene, keep_crossings: bool = False) -> Plan:
     """The plan for `scene`, refined whether or not it would be."""
     return replace(plan.plan(scene, keep_crossings=keep_crossings), refine_px=plan.refine_px(scene))
 
@@ -38,20 +38,20 @@ def trace(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> TracedRa
     Crossings off the disk are left out: interpolation does not look at them. Steps and evaluations are those of the whole picture, the
     grid's own rays too, shared out among its pixels.
     """
-    ray_plan = refined_plan(scene, keep_crossings=True)
-    renderer.time_trace(scene, REFINED_SIZE, ray_plan, progressive=True)
+    made = refined_plan(scene, keep_crossings=True)
+    renderer.time_trace(made, REFINED_SIZE, progressive=True)
     hits = renderer.hits()
     x, y = chart_scene.pixels.T
     steps = np.full(len(x), _steps_a_pixel(renderer, hits.steps))
     crossing = hits.crossing[y, x].astype(float)
     r = _counted(np.hypot(crossing[..., 0], crossing[..., 1]), _true(chart_scene).crossing_r, scene)
-    isco = float(relativity.isco_radius(observer.effective_spin(scene), scene.disk.orbit))
-    emitter_r = np.where(r >= isco, r, np.nan)
-    g = relativity.circular_orbit_g(emitter_r, hits.lambda_[y, x][:, None], observer.effective_spin(scene), scene.disk.orbit)
+    where, orbit = made.space_time, scene.disk.orbit
+    emitter_r = np.where(r >= where.matter_isco_radius(orbit), r, np.nan)
+    g = relativity.circular_orbit_g(emitter_r, hits.lambda_[y, x][:, None], where.spin, orbit)
     fate = hits.fate[y, x]
     direction = np.where((fate == 1)[:, None], hits.direction[y, x].astype(float), np.nan)
     phi = np.where(np.isnan(r), np.nan, np.arctan2(crossing[..., 1], crossing[..., 0]))
-    return TracedRays(fate, direction, steps, steps * ray_plan.evaluations_per_step, r, phi, g)
+    return TracedRays(fate, direction, steps, steps * made.evaluations_per_step, r, phi, g)
 
 
 def truth(chart_scene: ChartScene) -> TracedRays:
@@ -76,26 +76,25 @@ def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing,
 
     As everywhere in the chart the shortest times count.
     """
-    flat, made = timing.flat_scene(scene), refined_plan(scene)
-    flat_plan = plan.plan(flat)
+    flat, made = plan.plan(timing.flat_scene(scene)), refined_plan(scene)
     taken, yard = [], []
     for _ in range(rounds):
-        yard.append(min(renderer.time_trace(flat, REFINED_SIZE, flat_plan) for _ in range(2)))
-        taken.append(renderer.time_trace(scene, REFINED_SIZE, made, progressive=True))
-    every_pixel = min(renderer.time_trace(scene, REFINED_SIZE, made) for _ in range(2))
+        yard.append(min(renderer.time_trace(flat, REFINED_SIZE) for _ in range(2)))
+        taken.append(renderer.time_trace(made, REFINED_SIZE, progressive=True))
+    every_pixel = min(renderer.time_trace(made, REFINED_SIZE) for _ in range(2))
     ratios = [a / b for a, b in zip(taken, yard)]
     return timing.Timing(1e3 * min(taken), min(taken) / min(yard), (min(ratios), max(ratios))), every_pixel / min(yard)
 
 
 def disk_edge(scene: Scene) -> float:
     """What errors of crossing radii are relative to, in r_s: interpolation errs by a length on the disk, as a pixel sees it, and not by a share of r."""
-    return plan.effective_disk_radii(scene)[1]
+    return plan.plan(scene).disk_outer
 
 
 def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
     """Crossing radii (…) in r_s, NaN where there is none on the disk."""
-    inner, outer = plan.effective_disk_radii(scene)
-    return np.where((r >= inner) & (r <= outer), r, np.nan)
+    made = plan.plan(scene)
+    return np.where((r >= made.disk_inner) & (r <= made.disk_outer), r, np.nan)
 
 
 def _counted(found: np.ndarray, true: np.ndarray, scene: Scene) -> np.ndarray:

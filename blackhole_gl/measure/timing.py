@@ -10,7 +10,7 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 
 from .. import plan
-from ..plan import RayPlan
+from ..plan import Plan
 from ..render.frame import Renderer
 from ..scene import Scene
 
@@ -35,24 +35,19 @@ def flat_scene(scene: Scene) -> Scene:
     return scene.with_values({"rays.lensing": False})
 
 
-def euler_task(scene: Scene) -> tuple[Scene, RayPlan]:
+def euler_plan(scene: Scene) -> Plan:
     """300 fixed Euler steps of `schwarzschild` in the same picture: the common way of today's viewers.
 
     Every ray that is not captured takes all 300: the step is so short that none gets out of the march's bound before.
     """
     values = {"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.max_steps": 300, "hole.spin": 0.0}
-    slow = scene.with_values(values)
-    return slow, replace(plan.plan(slow), step_length=plan.march_bound(slow) / 300.0)
-
-
-def tasks(scenes: Mapping[str, Scene]) -> dict[str, tuple[Scene, RayPlan]]:
-    """Scenes with their own plans, ready for `interleaved`."""
-    return {name: (scene, plan.plan(scene)) for name, scene in scenes.items()}
+    slow = plan.plan(scene.with_values(values))
+    return replace(slow, step_length=slow.march_bound / 300.0)
 
 
 def interleaved(
     renderer: Renderer,
-    work: Mapping[str, tuple[Scene, RayPlan]],
+    work: Mapping[str, Plan],
     size: tuple[int, int],
     yardstick: str,
     rounds: int = 7,
@@ -66,8 +61,8 @@ def interleaved(
     """
     times: dict[str, list[float]] = {name: [] for name in work}
     for counted in range(-1, rounds):
-        for name, (scene, ray_plan) in work.items():
-            seconds = renderer.time_trace(scene, size, ray_plan, progressive=name in refined)
+        for name, made in work.items():
+            seconds = renderer.time_trace(made, size, progressive=name in refined)
             if counted >= 0:
                 times[name].append(seconds)
     found = {}

@@ -1,20 +1,24 @@
-"""The observer: where the camera is, how it moves, and what a ray starts with. All in float64.
+"""The observer: where the camera is, how it moves, where it looks, and what a ray starts with. All in float64.
 
-A local direction n = (n_r, n_θ, n_φ) of the observer's orthonormal frame is where the camera looks; the photon's momentum is −n.
-Looking at the hole is (−1, 0, 0); right on the screen is +e_φ, up is −e_θ.
+A local direction n = (n_r, n_θ, n_φ) of the observer's orthonormal frame is where a pixel looks; the photon's momentum is −n.
+Looking at the hole is (−1, 0, 0); right on the screen is +e_φ, up is −e_θ. A camera that looks elsewhere turns this frame: `look_rotation`.
 
-Everything that a ray starts with is linear in (1, n): one 4×4 matrix, `Frame.observer_map`, serves every observer.
+Everything that a ray starts with is linear in (1, n): one 4×4 matrix, ``tetrad · look``, `Observer.observer_map`, serves every observer.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ..scene import Scene, catalogue
-from . import relativity
+from ..scene import Camera, Scene, SceneError
+from .space_time import space_time
+
+# Half a picture's height at distance 1 per degree of view is no more than this; a direction to the hole less ahead than its inverse is off every screen.
+_LEAST_AHEAD = 1e-3
 
 
 @dataclass(frozen=True)
@@ -26,8 +30,9 @@ class Observer:
         spin: a* of the space-time the observer sits in (0 in Schwarzschild and flat space).
         w: M/r; 0 at infinity.
         n, e_theta, e_phi: world unit vectors at the camera's place, float64 (3,).
-        observer_map: float64 (4, 4): (E, w', n'_θ, n'_φ) = observer_map · (1, n_r, n_θ, n_φ), still to be divided by E;
-            primes are derivatives in Mino time (M = 1) along the ray traced backwards, as SPEC §3 starts a ray.
+        tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) = tetrad · (1, n_r, n_θ, n_φ), still to be divided by E; primes are derivatives in Mino time
+            (M = 1) along the ray traced backwards (docs/physics.md).
+        look: float64 (3, 3) rotation of the view: n = look · v, with v = (−1, 0, 0) for the middle of the picture.
     """
 
     kind: str
@@ -36,32 +41,26 @@ class Observer:
     n: np.ndarray
     e_theta: np.ndarray
     e_phi: np.ndarray
-    observer_map: np.ndarray
+    tetrad: np.ndarray
+    look: np.ndarray
 
+    @cached_property
+    def observer_map(self) -> np.ndarray:
+        """tetrad · look, float64 (4, 4): what a pixel's ray starts with from (1, v)."""
+        turned = self.tetrad.copy()
+        turned[:, 1:] = self.tetrad[:, 1:] @ self.look
+        return turned
 
-def ray_model(scene: Scene) -> catalogue.PlugIn:
-    """The plug-in that traces `scene`: its ``rays.model``, or ``flat`` with lensing off.
+    @cached_property
+    def axes(self) -> np.ndarray:
+        """World unit vectors of the view, float64 rows (3, 3): backwards, down and right on the screen: n, e_θ, e_φ for a camera that looks at the hole."""
+        return self.look.T @ np.stack([self.n, self.e_theta, self.e_phi])
 
-    For ``auto``, the exact and general model of its hole; the plan may choose a cheaper one of the same space-time.
-    """
-    if not scene.rays.lensing:
-        key = "flat"
-    elif scene.rays.model == "auto":
-        artistic = scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0
-        key = "schwarzschild" if artistic else "kerr"
-    else:
-        key = scene.rays.model
-    return catalogue.plug_ins("ray_model")[key]
-
-
-def effective_spin(scene: Scene) -> float:
-    """a* that the scene's matter feels: 0 for a model without spin."""
-    return scene.hole.spin if ray_model(scene).traits["spins"] else 0.0
-
-
-def horizon_spin(scene: Scene) -> float:
-    """a* that the horizon of the marched space-time has: `kerr_like` drags, but its orbits are Schwarzschild's."""
-    return 0.0 if ray_model(scene).traits["space_time"] == "schwarzschild" else effective_spin(scene)
+    @cached_property
+    def hole_on_screen(self) -> tuple[float, float]:
+        """Where the direction to the hole meets a screen at distance 1 ahead, (right, up); far off the picture for a hole that is not ahead."""
+        ahead, down, right = -self.look[0] * np.array([-1.0, 1.0, 1.0])
+        return (right / ahead, -down / ahead) if ahead > _LEAST_AHEAD else (1e6, 1e6)
 
 
 def cos_sin_deg(degrees: float) -> tuple[float, float]:
@@ -77,22 +76,42 @@ def observe(scene: Scene) -> Observer:
     Raises:
         ValueError: the camera is not outside the horizon; the text says by how much.
     """
-    space_time = ray_model(scene).traits["space_time"]
-    camera = scene.camera
-    spin = scene.hole.spin if space_time == "kerr" else 0.0
+    where, camera = space_time(scene), scene.camera
+    look = look_rotation(camera)
     cos_theta, sin_theta = cos_sin_deg(camera.inclination_deg)
     cos_phi, sin_phi = cos_sin_deg(camera.azimuth_deg)
     n = np.array([sin_theta * cos_phi, sin_theta * sin_phi, cos_theta])
     e_theta = np.array([cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta])
     e_phi = np.array([-sin_phi, cos_phi, 0.0])
     if math.isinf(camera.distance):
-        return Observer("infinity", spin, 0.0, n, e_theta, e_phi, np.diag([1.0, -1.0, 1.0, 1.0]))
+        return Observer("infinity", where.observer_spin, 0.0, n, e_theta, e_phi, np.diag([1.0, -1.0, 1.0, 1.0]), look)
     r = 2.0 * camera.distance  # M = 1 from here on
-    if space_time == "flat":
-        _outside(camera.distance, relativity.horizon_radius(effective_spin(scene)), effective_spin(scene))
-        return Observer("static", 0.0, 1.0 / r, n, e_theta, e_phi, np.diag([1.0, -1.0, r, r]))
-    kind, matrix = _kerr_map(r, cos_theta, sin_theta, spin, camera.observer)
-    return Observer(kind, spin, 1.0 / r, n, e_theta, e_phi, matrix)
+    if where.kind == "flat":
+        _outside(camera.distance, where.horizon_radius, where.horizon_spin)
+        return Observer("static", 0.0, 1.0 / r, n, e_theta, e_phi, np.diag([1.0, -1.0, r, r]), look)
+    kind, tetrad = _kerr_tetrad(r, cos_theta, sin_theta, where.observer_spin, camera.observer)
+    return Observer(kind, where.observer_spin, 1.0 / r, n, e_theta, e_phi, tetrad, look)
+
+
+def look_rotation(camera: Camera) -> np.ndarray:
+    """The rotation (3, 3) in (r, θ, φ) of a camera's look: rolled about the line of sight, then pitched, then yawed, as a head turns.
+
+    Positive yaw looks to the right, positive pitch up; positive roll turns the camera clockwise, and so the picture counter-clockwise.
+
+    Raises:
+        SceneError: a camera at infinity looks aside; its rays are parallel.
+    """
+    if math.isinf(camera.distance):
+        for name in ("yaw_deg", "pitch_deg"):
+            if getattr(camera, name):
+                text = f"got {getattr(camera, name):g}; a camera at infinity has parallel rays, so allowed is 0 (camera.roll_deg turns its picture)"
+                raise SceneError(f"camera.{name}", text)
+    (cy, sy), (cp, sp), (cr, sr) = (cos_sin_deg(angle) for angle in (camera.yaw_deg, camera.pitch_deg, camera.roll_deg))
+    # In (r, θ, φ) = (back, down, right): ahead is −r, up is −θ.
+    yaw = np.array([[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]])  # takes ahead to ahead·cos + right·sin
+    pitch = np.array([[cp, -sp, 0.0], [sp, cp, 0.0], [0.0, 0.0, 1.0]])  # takes ahead to ahead·cos + up·sin
+    roll = np.array([[1.0, 0.0, 0.0], [0.0, cr, sr], [0.0, -sr, cr]])  # takes right to right·cos + down·sin
+    return yaw @ pitch @ roll
 
 
 def _outside(distance: float, horizon: float, a: float) -> None:
@@ -101,8 +120,8 @@ def _outside(distance: float, horizon: float, a: float) -> None:
         raise ValueError(f"camera.distance: got {distance:g} r_s; at spin {a:g} the horizon is at {horizon:.6g} r_s and the camera must be outside it")
 
 
-def _kerr_map(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, np.ndarray]:
-    """The observer map from the ZAMO's tetrad (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted along e_φ for the static observer."""
+def _kerr_tetrad(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, np.ndarray]:
+    """Kind and tetrad of the observer, from the ZAMO's (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted along e_φ for the static observer."""
     r_plus = 1.0 + math.sqrt((1.0 - a) * (1.0 + a))
     _outside(0.5 * r, 0.5 * r_plus, a)
     sigma = r * r + (a * cos_theta) ** 2
@@ -138,12 +157,3 @@ def parallel_rays(alpha: np.ndarray, beta: np.ndarray) -> np.ndarray:
     """Local vectors (…, 3) of a far observer's parallel rays at screen coordinates α (right), β (up), in M."""
     alpha, beta = np.broadcast_arrays(np.asarray(alpha, float), np.asarray(beta, float))
     return np.stack([-np.ones_like(alpha), -beta, alpha], axis=-1)
-
-
-def stop_radius(spin: float) -> float:
-    """Radius in r_s below which an inward ray is captured without further march.
-
-    Halfway to the prograde photon orbit at most: for spins near 1 that orbit lies closer to the horizon than one per cent.
-    """
-    r_plus = relativity.horizon_radius(spin)
-    return r_plus + min(0.01 * r_plus, 0.5 * (relativity.photon_orbit_radius(abs(spin)) - r_plus))

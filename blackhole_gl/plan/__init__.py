@@ -1,16 +1,6 @@
-"""How a scene's rays are traced, and why."""
+"""How a scene's rays are traced, and why: one `Plan` a frame."""
 
-from .make import INNERMOST_CROSSING, MARCH_BOUND, REFINE_STEP, RayPlan, effective_disk_radii, march_bound, plan, refine_px, resolved, unfit_options
+from .make import MARCH_BOUND, forget_measurements, plan, refine_px, unfit_options
+from .record import INNERMOST_CROSSING, MERIDIAN, REFINE_STEP, WORLD, Plan
 
-__all__ = [
-    "INNERMOST_CROSSING",
-    "MARCH_BOUND",
-    "REFINE_STEP",
-    "RayPlan",
-    "effective_disk_radii",
-    "march_bound",
-    "plan",
-    "refine_px",
-    "resolved",
-    "unfit_options",
-]
+__all__ = ["INNERMOST_CROSSING", "MARCH_BOUND", "MERIDIAN", "REFINE_STEP", "WORLD", "Plan", "forget_measurements", "plan", "refine_px", "unfit_options"]

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from ..physics import observer
+from ..physics.space_time import ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue
 
@@ -152,7 +152,7 @@ class Choice:
 def choose(scene: Scene) -> Choice:
     """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open."""
     if not is_open(scene):
-        return Choice(scene, None, None, math.nan, True, (f"{observer.ray_model(scene).key}: stated by rays.model and the steps",))
+        return Choice(scene, None, None, math.nan, True, (f"{ray_model(scene).key}: stated by rays.model and the steps",))
     if scene.rays.model == AUTO and (scene.rays.step_angle or scene.rays.step_length):
         return Choice(_plainly(scene), None, None, math.nan, True, ("the steps are stated by hand: the exact model for this hole",))
     why_not = _not_measured(scene)
@@ -178,7 +178,7 @@ def is_open(scene: Scene) -> bool:
         return False
     if scene.rays.model == AUTO:
         return True
-    traits = observer.ray_model(scene).traits
+    traits = ray_model(scene).traits
     if traits["kind"] == "closed":
         return False
     step = scene.rays.step_angle if traits["marches_in"] == "mino" else scene.rays.step_length
@@ -239,7 +239,7 @@ def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> flo
 
 def _stated_method(scene: Scene) -> Method:
     """The method of `scene`, which leaves nothing open, as the table names it."""
-    rays, model = scene.rays, observer.ray_model(scene)
+    rays, model = scene.rays, ray_model(scene)
     if model.traits["kind"] == "closed":
         return Method(model.key, "", "", 0.0, 0.0, 0.0)
     if catalogue.plug_ins("step_control")[rays.step_control].traits.get("adapts"):
@@ -316,7 +316,7 @@ def _not_measured(scene: Scene) -> str:
 
 def _plainly(scene: Scene) -> Scene:
     """`scene` with the exact general model for its hole and plain steps where it leaves them open."""
-    model = observer.ray_model(scene)
+    model = ray_model(scene)
     values = {
         "rays.model": model.key,
         "rays.integrator": "rk4" if scene.rays.integrator == AUTO else scene.rays.integrator,

@@ -1,14 +1,15 @@
-"""Scene → RayPlan: which model and method trace it, with which steps, and the reason for each."""
+"""Scene → Plan: everything that is decided once a frame, and the reason for each decision."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from functools import lru_cache
 
-from ..physics import observer, relativity
+from ..physics.space_time import SpaceTime, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue
 from ..scene.catalogue import PlugIn
 from . import choice
+from .record import MERIDIAN, Plan
 
 # A ray that comes near the critical curve winds round the hole; one pixel in a 4K picture lies closer than 1e-7 to it only by
 # rare chance, and 3 turns reach that: each turn takes a factor e^{2π} of distance.
@@ -18,65 +19,13 @@ SPARE_TURNS = 3.0
 # Models whose closed form is a first-order one state a larger march_bound in their header.
 MARCH_BOUND = 6.0
 
-# The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge.
-INNERMOST_CROSSING = 1.02
-
 # Share of the tolerance that interpolation may take; the march's own error at most pixels is far below its share.
 _REFINE_SHARE = 0.8
 
-REFINE_STEP = 4
-"""Pixels between the exact rays of a refined hit map's coarse grid."""
 
-
-@dataclass(frozen=True)
-class RayPlan:
-    """How a scene's rays are traced.
-
-    Attributes:
-        model, integrator, step_control: plug-ins; the last two are None for closed models.
-        step_length: Δt₀ in r_s, as used.
-        step_angle: κ in radians, as used.
-        max_steps: no ray takes more.
-        orders: crossings of the disk's plane that are kept, 0 without a disk.
-        refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
-        reasons: why, a sentence each, for people.
-    """
-
-    model: PlugIn
-    integrator: PlugIn | None
-    step_control: PlugIn | None
-    step_length: float
-    step_angle: float
-    max_steps: int
-    orders: int
-    refine_px: float
-    reasons: tuple[str, ...]
-
-    @property
-    def evaluations_per_step(self) -> int:
-        """Right-hand-side evaluations in one step, tried ones included; 0 for closed models."""
-        if self.integrator is None:
-            return 0
-        evaluations = "pair_evaluations" if self.step_control.traits.get("needs_pair") else "evaluations"
-        return self.integrator.traits[evaluations] * self.step_control.traits.get("integrator_steps", 1)
-
-    @property
-    def method(self) -> str:
-        """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
-        if self.integrator is None:
-            return self.model.key
-        step = f"κ = {self.step_angle:.3g}" if self.model.traits["marches_in"] == "mino" else f"Δt₀ = {self.step_length:.3g}"
-        control = "" if self.step_control.key == "mino" else f"{self.step_control.key}, "
-        return f"{self.model.key}, {self.integrator.key}, {control}{step}"
-
-
-def resolved(scene: Scene) -> Scene:
-    """`scene` with everything chosen that it leaves to the plan."""
-    return choice.choose(scene).scene
-
-
-def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
-    """The plan for `scene`.
+@lru_cache(maxsize=64)
+def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
+    """The plan for `scene`. The same scene gives the same object while it is among the last few.
 
     Args:
         keep_crossings: keep crossings of the disk's plane even where the scene shows no disk.
@@ -84,43 +33,73 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
     Raises:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
-    made = choice.choose(scene)
-    scene, reasons = made.scene, list(made.reasons if scene.rays.lensing else ("flat: lensing is off",))
-    model = observer.ray_model(scene)
+    chosen = choice.choose(scene)
+    scene, reasons = chosen.scene, list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",))
+    model, where = ray_model(scene), space_time(scene)
     orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
-    if orders == 0:
-        reasons.append("no crossings are looked for: the disk is off")
-    elif orders < scene.rays.orders and not keep_crossings:
-        reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
-    if model.traits["kind"] == "closed":
-        refine, why = _refines(scene, model, made)
-        return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, refine_px(scene) if refine else 0.0, (*reasons, why))
-    control = scene.rays.step_control
-    against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
-    if against:
-        control = model.traits["step_control"]
-        scene = scene.with_values({"rays.step_control": control})
-        reasons.append(f"steps by {control}: {'; '.join(against)}")
+    reasons += _why_orders(scene, orders, keep_crossings)
+    integrator = control = None
+    stretch, max_steps = 1.0, 1
+    if model.traits["kind"] != "closed":
+        scene, why = _fitting(scene, model)
+        reasons += why
+        integrator, control = catalogue.plug_ins("integrator")[scene.rays.integrator], catalogue.plug_ins("step_control")[scene.rays.step_control]
+        max_steps = scene.rays.max_steps
+        stretch = max(1.0, _steps_needed(scene, model, control) / max_steps)
+        if stretch > 1.0:
+            reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene")
+    refine, why_refine = _refines(scene, model, chosen)
+    reasons.append(why_refine)
+    inner, outer = _disk_radii(scene, where)
+    return Plan(
+        scene=scene,
+        space_time=where,
+        model=model,
+        integrator=integrator,
+        step_control=control,
+        step_length=scene.rays.step_length * stretch,
+        step_angle=scene.rays.step_angle * stretch,
+        max_steps=max_steps,
+        march_bound=_march_bound(scene, model),
+        orders=orders,
+        disk_inner=inner,
+        disk_outer=outer,
+        refine_px=refine_px(scene) if refine else 0.0,
+        frame=MERIDIAN,
+        reasons=tuple(reasons),
+    )
+
+
+def forget_measurements() -> None:
+    """To be called when the chart's table has changed: what was planned by the old one is planned anew."""
+    choice.forget_choices()
+    plan.cache_clear()
+
+
+def _fitting(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:
+    """`scene` with a step control that its marched model and its integrator go with, and what was changed.
+
+    Raises:
+        SceneError: no step control mends it.
+    """
+    against = catalogue.reasons_against(model.key, scene.rays.integrator, scene.rays.step_control)
+    if not against:
+        return scene, []
+    control = model.traits["step_control"]
+    why = f"steps by {control}: {'; '.join(against)}"
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
         raise SceneError("rays.integrator", "; ".join(against))
-    stretch = _steps_needed(scene, model, catalogue.plug_ins("step_control")[control]) / scene.rays.max_steps
-    if stretch > 1.0:
-        reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {scene.rays.max_steps} of them cross the scene")
-    stretch = max(1.0, stretch)
-    refine, why = _refines(scene, model, made)
-    reasons.append(why)
-    return RayPlan(
-        model,
-        catalogue.plug_ins("integrator")[scene.rays.integrator],
-        catalogue.plug_ins("step_control")[control],
-        scene.rays.step_length * stretch,
-        scene.rays.step_angle * stretch,
-        scene.rays.max_steps,
-        orders,
-        refine_px(scene) if refine else 0.0,
-        tuple(reasons),
-    )
+    return scene.with_values({"rays.step_control": control}), [why]
+
+
+def _why_orders(scene: Scene, orders: int, keep_crossings: bool) -> list[str]:
+    if orders == 0:
+        return ["no crossings are looked for: the disk is off"]
+    if orders < scene.rays.orders and not keep_crossings:
+        height = choice.PICTURE_HEIGHT
+        return [f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {height} pixels high by 1/255"]
+    return []
 
 
 def unfit_options(key: str, scene: Scene) -> dict[str, str]:
@@ -189,9 +168,9 @@ def _visible_orders(scene: Scene) -> int:
     return min(scene.rays.orders, 1 + seen)
 
 
-def march_bound(scene: Scene) -> float:
+def _march_bound(scene: Scene, model: PlugIn) -> float:
     """Radius in r_s beyond which outward rays are finished in closed form."""
-    return observer.ray_model(scene).traits.get("march_bound", MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
+    return model.traits.get("march_bound", MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
 
 
 def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
@@ -204,7 +183,7 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     shortest = control.traits.get("shortest", 1.0)
     if model.traits["marches_in"] == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
-    bound = march_bound(scene)
+    bound = _march_bound(scene, model)
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere
@@ -216,12 +195,7 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / (scene.rays.step_length * shortest)
 
 
-def effective_disk_radii(scene: Scene) -> tuple[float, float]:
-    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner.
-
-    The ISCO is that of the space-time in which light runs: with `kerr_like` that is Schwarzschild's, whatever the spin, for light
-    and matter of two space-times make no sense together close in.
-    """
-    isco = float(relativity.isco_radius(observer.horizon_spin(scene), scene.disk.orbit))
-    inner = max(scene.disk.inner_radius, isco)
+def _disk_radii(scene: Scene, where: SpaceTime) -> tuple[float, float]:
+    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
+    inner = max(scene.disk.inner_radius, where.isco_radius(scene.disk.orbit))
     return inner, max(scene.disk.outer_radius, inner * 1.0001)

@@ -7,11 +7,12 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
-from .. import plan
-from ..plan import RayPlan
+from ..plan import Plan
+from ..plan import plan as make_plan
 from ..scene import Scene, presets
 from .hit_map import HitMap
-from .programs import Programs, bind_samplers, draw
+from .inputs import FrameInputs
+from .programs import Programs
 from .views import View, linear_light, view_of
 
 _COLOURS = 256
@@ -25,20 +26,20 @@ def is_on(scene: Scene) -> bool:
     return scene.post.view != "picture"
 
 
-def prepared(scene: Scene, ray_plan: RayPlan) -> tuple[Scene, RayPlan]:
-    """`scene` and its plan as they are drawn: unchanged for the picture, without exposure and glow for a view."""
+def prepared(plan: Plan) -> Plan:
+    """`plan` as it is drawn: unchanged for the picture, without exposure and glow for a view."""
+    scene = plan.scene
     if not is_on(scene):
-        return scene, ray_plan
-    if scene.post.view == "conservation":  # its value lies beside the first crossing
-        ray_plan = replace(ray_plan, orders=max(ray_plan.orders, 1))
-    return scene.with_values(_AS_IT_IS), ray_plan
+        return plan
+    orders = max(plan.orders, 1) if scene.post.view == "conservation" else plan.orders  # its value lies beside the first crossing
+    return replace(plan, scene=scene.with_values(_AS_IT_IS), orders=orders)
 
 
-def most_accurate(scene: Scene, ray_plan: RayPlan) -> tuple[Scene, RayPlan]:
-    """`scene` with the exact model of its hole at the steps of the preset ``reference``, and the plan for it; crossings as in `ray_plan`."""
+def most_accurate(drawn: Plan) -> Plan:
+    """The scene of `drawn` by the exact model of its hole at the steps of the preset ``reference``; crossings as in `drawn`."""
     steps = presets.read("reference").values
-    exact = scene.with_values({**steps, "rays.model": "auto", "rays.lensing": True})
-    return plan.resolved(exact), replace(plan.plan(exact), orders=ray_plan.orders)
+    exact = make_plan(drawn.scene.with_values({**steps, "rays.model": "auto", "rays.lensing": True}))
+    return replace(exact, orders=drawn.orders)
 
 
 class ViewPass:
@@ -48,23 +49,24 @@ class ViewPass:
         self._ctx, self._programs = ctx, programs
         self._scales: dict[bool, moderngl.Texture] = {}
 
-    def draw(self, scene: Scene, ray_plan: RayPlan, hit_map: HitMap, reference: HitMap, target: moderngl.Framebuffer) -> None:
-        """Draws the view of `hit_map` that `scene` asks for into `target` (RGBA16F, of the map's size). The uniform blocks are bound.
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, reference: HitMap, target: moderngl.Framebuffer) -> None:
+        """Draws the view of `hit_map` that the scene asks for into `target` (RGBA16F, of the map's size).
 
         Args:
             reference: hits of the most accurate method, traced before for the view ``difference``; not looked at by others.
         """
+        scene = inputs.plan.scene
         view = view_of(scene)
-        triangle = self._programs.get(f"views/{scene.post.view}.frag", scene, ray_plan)
+        prepared = self._programs.get(f"views/{scene.post.view}.frag", inputs)
         samplers = hit_map.samplers()
         samplers |= {f"exact{k}": texture for k, texture in enumerate(reference.textures)}
         if view.scale is not None:
             samplers["colour_scale"] = self._scale(view)
-        bind_samplers(triangle.program, samplers)
-        _set_scale(triangle.program, view)
+        prepared.sample(samplers)
+        _set_scale(prepared.program, view)
         target.use()
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        draw(triangle)
+        prepared.draw()
 
     def release(self) -> None:
         """Gives the GL objects back."""

@@ -9,16 +9,21 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
-from .. import plan
+from ..plan import Plan
+from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, supersampling, uniforms
+from . import diagnostics, supersampling
 from .hit_map import HitArrays, HitMap
+from .inputs import FrameInputs
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
+
+# Listed rays are told by angles from the hole, not from the middle of the picture.
+_AT_THE_HOLE = {"camera.yaw_deg": 0.0, "camera.pitch_deg": 0.0, "camera.roll_deg": 0.0}
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,6 @@ class Renderer:
         self._shade = ShadePass(ctx, self.programs)
         self._views = diagnostics.ViewPass(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
-        self._buffers: dict[str, moderngl.Buffer] = {}
         self._radiance: moderngl.Framebuffer | None = None
         self._picture: moderngl.Framebuffer | None = None
 
@@ -92,20 +96,21 @@ class Renderer:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
             ShaderError: a shader has a mistake.
         """
-        scene, ray_plan = diagnostics.prepared(plan.resolved(scene), plan.plan(scene))
+        inputs = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size)
         stamps = [clock.perf_counter()]
-        traced = self._trace(scene, ray_plan, time, size, (0.0, 0.0), progressive=progressive and not diagnostics.is_on(scene))
+        traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._stamp(stamps, measure)
-        self._shade_into(scene, ray_plan, size)
+        self._shade_into(inputs)
         self._stamp(stamps, measure)
-        self._post.draw(scene, ray_plan, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
+        self._post.draw(inputs, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, ray_plan.method, ray_plan.reasons)
+        plan = inputs.plan
+        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, plan.method, plan.reasons)
 
     def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
-        """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd number of them:
-        supersampling.py).
+        """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd
+        number of them: supersampling.py).
 
         Meant for a picture that `render` has drawn sharp: the first call takes the rays that it left.
 
@@ -115,32 +120,31 @@ class Renderer:
         Raises:
             As `render`; ValueError: the scene asks for a view, whose false colours have no mean.
         """
-        scene, ray_plan = plan.resolved(scene), plan.plan(scene)
         if diagnostics.is_on(scene):
             raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; only 'picture' is drawn finer")
         self._mean.begin((scene, time, size))
-        shift = supersampling.place(self._mean.count)
-        if self._mean.count == 0:
-            self._trace(scene, ray_plan, time, size, shift)
-            hit_map = self.hit_map
+        first = self._mean.count == 0
+        inputs = FrameInputs.whole(make_plan(scene), time, size, supersampling.place(self._mean.count))
+        hit_map = self.hit_map if first else self._sample_map
+        if first:
+            self._trace(inputs)
         else:
-            hit_map = self._sample_map
-            hit_map.trace(scene, ray_plan, self._bind(scene, ray_plan, time, size, shift), size)
-        self._shade_into(scene, ray_plan, size, hit_map)
+            hit_map.trace(inputs)
+        self._shade_into(inputs, hit_map)
         mean = self._mean.add(self._radiance_array())
-        self._post.draw(scene, ray_plan, mean, target or self._own_picture(size), (0, 0, *size))
+        self._post.draw(inputs, mean, target or self._own_picture(size), (0, 0, *size))
         if self._mean.count == supersampling.MOST_SAMPLES:
             self._sample_map.release()
         return self._mean.count
 
-    def time_trace(self, scene: Scene, size: tuple[int, int], ray_plan: plan.RayPlan | None = None, *, progressive: bool = False) -> float:
-        """Seconds by the wall clock that one trace of `scene` at `size` takes (by its own plan when None), programs compiled before."""
-        ray_plan, scene = ray_plan or plan.plan(scene), plan.resolved(scene)
-        self.programs.get("trace.frag", scene, ray_plan)
+    def time_trace(self, plan: Plan, size: tuple[int, int], *, progressive: bool = False) -> float:
+        """Seconds by the wall clock that one trace by `plan` at `size` takes, programs compiled before."""
+        inputs = FrameInputs.whole(plan, 0.0, size)
+        self.programs.get("trace.frag", inputs)
         self.hit_map.forget()
         self.ctx.finish()
         start = clock.perf_counter()
-        self._trace(scene, ray_plan, 0.0, size, (0.0, 0.0), progressive=progressive)
+        self._trace(inputs, progressive=progressive)
         self.ctx.finish()
         return clock.perf_counter() - start
 
@@ -154,7 +158,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        scene, ray_plan = diagnostics.prepared(plan.resolved(scene), plan.plan(scene))
+        plan = diagnostics.prepared(make_plan(scene))
         width, height = size
         total = np.zeros((height, width, 4), np.float32)
         tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
@@ -162,27 +166,27 @@ class Renderer:
         for done, ((x, y), index) in enumerate(passes):
             shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
             tile = min(TILE, width - x), min(TILE, height - y)
-            self._trace(scene, ray_plan, time, tile, (x + shift[0], y + shift[1]), picture=size)
-            self._shade_into(scene, ray_plan, tile)
+            inputs = FrameInputs(plan, time, tile, size, (x + shift[0], y + shift[1]))
+            self._trace(inputs)
+            self._shade_into(inputs)
             total[y : y + tile[1], x : x + tile[0]] += self._radiance_array() / samples**2
             if progress is not None:
                 progress((done + 1) / len(passes))
         texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
-        self._post.draw(scene, ray_plan, texture, self._own_picture(size), (0, 0, *size))
+        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size), (0, 0, *size))
         texture.release()
 
-    def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, plan.RayPlan]:
-        """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use.
+    def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
+        """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use, wherever the camera looks.
 
         Returns:
             Their hits; the exact g of each kept crossing, float32 (N, 3), 0 where there is none; the plan used.
         """
-        ray_plan, scene = plan.plan(scene, keep_crossings=True), plan.resolved(scene)
-        self._bind(scene, ray_plan, 0.0, (1, 1), (0.0, 0.0))
+        plan = make_plan(scene.with_values(_AT_THE_HOLE), keep_crossings=True)
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        hits = self.hit_map.trace_listed(scene, ray_plan, directions)
-        shifts = self.hit_map.emission_shifts(scene, ray_plan).reshape(-1, 3)[: len(directions)]
-        return hits, shifts, ray_plan
+        hits = self.hit_map.trace_listed(plan, directions)
+        shifts = self.hit_map.emission_shifts().reshape(-1, 3)[: len(directions)]
+        return hits, shifts, plan
 
     def read_rgb8(self) -> np.ndarray:
         """The own picture as uint8 (height, width, 3), top row first."""
@@ -215,27 +219,23 @@ class Renderer:
             if framebuffer is not None:
                 framebuffer.color_attachments[0].release()
                 framebuffer.release()
-        for buffer in self._buffers.values():
-            buffer.release()
+        self.programs.release()
         self._radiance = self._picture = None
-        self._buffers = {}
 
-    def _trace(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float], picture: tuple[int, int] | None = None, progressive: bool = False) -> bool:
+    def _trace(self, inputs: FrameInputs, *, progressive: bool = False) -> bool:
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         traced_reference = False
-        if scene.post.view == "difference":
-            exact, exact_plan = diagnostics.most_accurate(scene, ray_plan)
-            traced_reference = self.reference_map.trace(exact, exact_plan, self._bind(exact, exact_plan, time, picture or size, offset), size)
-        ray_bytes = self._bind(scene, ray_plan, time, picture or size, offset)
-        return self.hit_map.trace(scene, ray_plan, ray_bytes, size, progressive=progressive) or traced_reference
+        if inputs.plan.scene.post.view == "difference":
+            traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
+        return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _shade_into(self, scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], hit_map: HitMap | None = None) -> None:
-        if self._radiance is None or self._radiance.size != size:
-            self._radiance = self._fresh(self._radiance, size, 4, "f2")
-        if diagnostics.is_on(scene):
-            self._views.draw(scene, ray_plan, self.hit_map, self.reference_map, self._radiance)
+    def _shade_into(self, inputs: FrameInputs, hit_map: HitMap | None = None) -> None:
+        if self._radiance is None or self._radiance.size != inputs.size:
+            self._radiance = self._fresh(self._radiance, inputs.size, 4, "f2")
+        if diagnostics.is_on(inputs.plan.scene):
+            self._views.draw(inputs, self.hit_map, self.reference_map, self._radiance)
         else:
-            self._shade.draw(scene, ray_plan, hit_map or self.hit_map, self._radiance)
+            self._shade.draw(inputs, hit_map or self.hit_map, self._radiance)
 
     def _own_picture(self, size: tuple[int, int]) -> moderngl.Framebuffer:
         if self._picture is None or self._picture.size != size:
@@ -247,18 +247,6 @@ class Renderer:
             old.color_attachments[0].release()
             old.release()
         return self.ctx.framebuffer([self.ctx.texture(size, components, dtype=dtype)])
-
-    def _bind(self, scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> bytes:
-        """Fills and binds the uniform blocks; returns the ray block's bytes."""
-        packed = uniforms.as_bytes(scene, ray_plan, time, size, offset)
-        for block in uniforms.blocks():
-            data = packed[block.name]
-            if block.name not in self._buffers:
-                self._buffers[block.name] = self.ctx.buffer(data, dynamic=True)
-            else:
-                self._buffers[block.name].write(data)
-            self._buffers[block.name].bind_to_uniform_block(block.binding)
-        return packed[uniforms.RAY_BLOCK.name]
 
     def _radiance_array(self) -> np.ndarray:
         width, height = self._radiance.size

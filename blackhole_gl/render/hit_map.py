@@ -1,22 +1,22 @@
 """The trace pass and what it leaves: where every pixel's light comes from. Kept while nothing it depends on has changed.
 
-On the GPU hits are in the frame of the camera's meridian (the world turned about the spin axis so that the camera's azimuth is 0): a camera
-that turns about the axis keeps its map. Whoever reads it turns it back.
+On the GPU hits are in the plan's frame, as a rule that of the camera's meridian: a camera that turns about the axis then keeps its map. Whoever reads it
+turns it to the world.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import count
 
 import moderngl
 import numpy as np
 
-from .. import plan
 from ..physics.observer import cos_sin_deg
-from ..plan import REFINE_STEP, RayPlan
-from ..scene import Scene
+from ..plan import REFINE_STEP, Plan
 from . import refinement
-from .programs import Programs, bind_samplers, draw
+from .inputs import FrameInputs
+from .programs import Draw, Programs
 from .ray_tables import RayTables
 
 # Slices that a refined map is sharpened in, one a frame.
@@ -42,6 +42,9 @@ class HitArrays:
     crossing: np.ndarray
 
 
+_GENERATIONS = count(1)
+
+
 class HitMap:
     """The targets of the trace pass.
 
@@ -49,6 +52,7 @@ class HitMap:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
         tables: what closed ray models look up.
         traces: how many times rays have been traced, for tests and the overlay.
+        generation: of what the map holds: a number that no other trace of this process has had.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
     """
 
@@ -56,20 +60,20 @@ class HitMap:
         self._ctx, self._programs = ctx, programs
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
+        self.generation = 0
         self.sharpened = False
         self.tables = RayTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
-        self._azimuth_deg = 0.0
         self._grid = refinement.CoarseGrid(ctx, programs)
-        self._traced: tuple[Scene, RayPlan] | None = None
+        self._traced: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
 
-    def trace(self, scene: Scene, ray_plan: RayPlan, ray_bytes: bytes, size: tuple[int, int], *, progressive: bool = False) -> bool:
-        """Traces `scene` at `size` unless the map holds just that already. The uniform blocks are bound.
+    def trace(self, inputs: FrameInputs, *, progressive: bool = False) -> bool:
+        """Traces `inputs` unless the map holds just that already.
 
         Args:
             progressive: hits that are new may be interpolated between exact rays where the plan allows it; each further call for the same
@@ -78,25 +82,26 @@ class HitMap:
         Returns:
             Whether rays were traced.
         """
-        self._azimuth_deg = scene.camera.azimuth_deg
-        triangle = self._programs.get("trace.frag", scene, ray_plan)
-        rays = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
-        key = (id(triangle), ray_bytes, scene.hole, rays, size, ray_plan.orders)
-        refined = progressive and ray_plan.refine_px > 0.0
-        held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(scene, ray_plan, size))
+        plan = inputs.plan
+        rays = self._programs.get("trace.frag", inputs)
+        key = _key_of(inputs, rays)
+        refined = progressive and plan.refine_px > 0.0
+        held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
         self.sharpened = refined and held and not self.is_sharp
+        self._traced = inputs
         if held and self.is_sharp:
             return False
-        self.tables.bind(triangle.program, scene)
-        self._make_targets(size, ray_plan.orders)
+        self.tables.bind(rays.program, plan.scene)
+        self._make_targets(inputs.size, plan.orders)
         if not refined:
-            self._trace_rows(triangle, 0, size[1])
+            self._trace_rows(rays, 0, inputs.size[1])
         elif self.sharpened:
-            self._sharpen(triangle, scene, ray_plan)
+            self._sharpen(rays)
         else:
-            self._trace_refined(triangle, scene, ray_plan, size)
-        self._key, self._traced = key, (scene, ray_plan)
+            self._trace_refined(rays)
+        self._key = key
         self.traces += 1
+        self.generation = next(_GENERATIONS)
         return True
 
     @property
@@ -127,36 +132,36 @@ class HitMap:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
         return None if self.is_sharp else {"HIT_MAP_REFINED": 2}
 
-    def _trace_rows(self, triangle: moderngl.VertexArray, first: int, end: int) -> None:
+    def _trace_rows(self, rays: Draw, first: int, end: int) -> None:
         """Exact rays for the rows `first` ≤ y < `end`; the map is sharp after the last."""
         width, height = self._target.size
         self._target.use()
         self._target.scissor = 0, first, width, end - first
-        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
-        draw(triangle)
+        rays.set(ray_grid=(1.0, 0.0, 0.0))
+        rays.draw()
         self._target.scissor = None
         if end == height:
             self._refined_for, self._sharp_rows = None, 0
 
-    def _trace_refined(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
-        self._grid.trace(triangle, scene, ray_plan, size)
-        self._grid.trace_own_rays(triangle, self.textures)
-        self._refined_for, self._sharp_rows = _refined_for(scene, ray_plan, size), 0
+    def _trace_refined(self, rays: Draw) -> None:
+        self._grid.trace(rays)
+        self._grid.trace_own_rays(rays, self.textures)
+        self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
 
-    def _sharpen(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan) -> None:
+    def _sharpen(self, rays: Draw) -> None:
         height = self._target.size[1]
         rows = -(-height // (_SLICES * REFINE_STEP)) * REFINE_STEP
         first, end = self._sharp_rows, min(self._sharp_rows + rows, height)
         self._sharp_rows = end
-        self._grid.give_own_rays(scene, ray_plan, first, end)
-        self._trace_rows(triangle, first, end)
+        self._grid.give_own_rays(rays.inputs, first, end)
+        self._trace_rows(rays, first, end)
 
     def forget(self) -> None:
         """The next `trace` traces, whatever is kept."""
         self._key = None
 
-    def trace_listed(self, scene: Scene, ray_plan: RayPlan, directions: np.ndarray) -> HitArrays:
-        """Hits of listed local directions (N, 3) instead of pixels. The uniform blocks are bound."""
+    def trace_listed(self, plan: Plan, directions: np.ndarray) -> HitArrays:
+        """Hits of listed local directions (N, 3), in the observer's tetrad wherever the camera looks, instead of pixels."""
         count = len(directions)
         # Whole blocks of 4 × 4: software renderers run those whole, and a texel that is not there would be a ray without a direction.
         width = min(-(-count // 4) * 4, 1024)
@@ -164,38 +169,36 @@ class HitMap:
         listed = np.zeros((height * width, 4), np.float32)
         listed[:, 0] = -1.0
         listed[:count, :3] = directions
-        rays = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
-        triangle = self._programs.get("trace.frag", scene, ray_plan, {"RAYS_LISTED": 1})
-        triangle.program["listed_rays"].value = 0
-        rays.use(0)
-        self.tables.bind(triangle.program, scene)
-        self._key, self._azimuth_deg = None, scene.camera.azimuth_deg
-        self._make_targets((width, height), ray_plan.orders)
+        texture = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
+        self._traced = FrameInputs.whole(plan, 0.0, (width, height))
+        rays = self._programs.get("trace.frag", self._traced, {"RAYS_LISTED": 1})
+        rays.set(listed_rays=0)
+        texture.use(0)
+        self.tables.bind(rays.program, plan.scene)
+        self._key, self.generation = None, next(_GENERATIONS)
+        self._make_targets((width, height), plan.orders)
         self._target.use()
-        draw(triangle)
+        rays.draw()
         self._refined_for = None
-        rays.release()
+        texture.release()
         found = self.read()
         return HitArrays(*(getattr(found, name).reshape(height * width, *getattr(found, name).shape[2:])[:count] for name in HitArrays.__dataclass_fields__))
 
-    def emission_shifts(self, scene: Scene, ray_plan: RayPlan) -> np.ndarray:
-        """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none. The uniform blocks are bound."""
+    def emission_shifts(self) -> np.ndarray:
+        """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none."""
         width, height = self.textures[0].size
-        triangle = self._programs.get("probe.frag", scene, ray_plan)
-        for unit, texture in enumerate(self.textures):
-            if f"hits{unit}" in triangle.program:
-                triangle.program[f"hits{unit}"].value = unit
-                texture.use(unit)
+        probe = self._programs.get("probe.frag", self._traced)
+        probe.sample(self.samplers())
         target = self._ctx.framebuffer([self._ctx.texture((width, height), 4, dtype="f4")])
         target.use()
-        draw(triangle)
+        probe.draw()
         values = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3]
         target.color_attachments[0].release()
         target.release()
         return values
 
     def read(self) -> HitArrays:
-        """The map as arrays of shape (height, width, …), as its readers see it. The uniform blocks of its last trace are bound."""
+        """The map as arrays of shape (height, width, …), as its readers see it."""
         width, height = self.textures[0].size
         data = [np.frombuffer(stored, np.float32).reshape(height, width, 4) for stored in (self._stored() if self.is_sharp else self._resolved())]
         data += [np.zeros((height, width, 4), np.float32)] * (3 - len(data))
@@ -213,20 +216,20 @@ class HitMap:
         return [texture.read() for texture in self.textures]
 
     def _resolved(self) -> list[bytes]:
-        triangle = self._programs.get("refine_resolve.frag", *self._traced, self.switches())
-        bind_samplers(triangle.program, self.samplers())
+        resolve = self._programs.get("refine_resolve.frag", self._traced, self.switches())
+        resolve.sample(self.samplers())
         textures = [self._ctx.texture(texture.size, 4, dtype="f4") for texture in self.textures]
         target = self._ctx.framebuffer(textures)
         target.use()
-        draw(triangle)
+        resolve.draw()
         found = [texture.read() for texture in textures]
         for made in (target, *textures):
             made.release()
         return found
 
     def _in_world(self, vectors: np.ndarray) -> np.ndarray:
-        """Vectors (…, 2 or 3) turned from the camera's meridian to the world, as float32."""
-        c, s = cos_sin_deg(self._azimuth_deg)
+        """Vectors (…, 2 or 3) turned from the plan's frame to the world, as float32."""
+        c, s = cos_sin_deg(self._traced.plan.turn_deg)
         x, y = vectors[..., 0].astype(float), vectors[..., 1].astype(float)
         return np.concatenate([np.stack([c * x - s * y, s * x + c * y], axis=-1), vectors[..., 2:]], axis=-1).astype(np.float32)
 
@@ -257,6 +260,13 @@ class HitMap:
         self._targets, self._pool, self._target, self.textures, self._key = {}, [], None, [], None
 
 
-def _refined_for(scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> tuple:
+def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
+    """What bends rays and where they are looked at from: hits that have the same key are the same."""
+    scene = inputs.plan.scene
+    parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
+    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders
+
+
+def _refined_for(inputs: FrameInputs) -> tuple:
     """What a refined map depends on beside its key: how well it interpolates, and where the disk's edges are."""
-    return refinement.tolerances(scene, ray_plan, size), plan.effective_disk_radii(scene)
+    return refinement.tolerances(inputs), inputs.plan.disk_inner, inputs.plan.disk_outer

@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 import moderngl
 
-from ..plan import RayPlan
-from ..scene import Scene
-from .programs import Programs, draw
-from .shading import bind_samplers
+from .inputs import FrameInputs
+from .programs import Draw, Programs
 
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
@@ -53,23 +51,22 @@ class PostPass:
         self._tone: moderngl.Framebuffer | None = None
         self._tone_key: tuple | None = None
 
-    def draw(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
-        """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`. The uniform blocks are bound."""
+    def draw(self, inputs: FrameInputs, radiance: moderngl.Texture, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
+        """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`."""
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
         radiance.repeat_x = radiance.repeat_y = False
-        samplers = {"radiance": radiance, "tone_table": self._tone_table(scene, ray_plan)}
-        if scene.post.bloom:
-            samplers["glow"] = self._bloom(scene, ray_plan, radiance)
+        samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
+        if inputs.plan.scene.post.bloom:
+            samplers["glow"] = self._bloom(inputs, radiance)
         if viewport[2:] == radiance.size:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        triangle = self._programs.get("post/tone_map.frag", scene, ray_plan, TONE_TABLE)
-        bind_samplers(triangle.program, samplers)
-        triangle.program["target_origin"].value = viewport[:2]
-        triangle.program["target_texel"].value = _texel(viewport[2:])
+        tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
+        tone_map.sample(samplers)
+        tone_map.set(target_origin=viewport[:2], target_texel=_texel(viewport[2:]))
         target.use()
         outer = target.viewport
         target.viewport = viewport
-        draw(triangle)
+        tone_map.draw()
         target.viewport = outer
 
     def release(self) -> None:
@@ -86,33 +83,34 @@ class PostPass:
             level.frame.release()
         self._down, self._up, self._size = [], [], None
 
-    def _tone_table(self, scene: Scene, ray_plan: RayPlan) -> moderngl.Texture:
+    def _tone_table(self, inputs: FrameInputs) -> moderngl.Texture:
         """The curve of one channel, made anew when a number or a choice that it depends on has changed."""
-        triangle = self._programs.get("post/tone_table.frag", scene, ray_plan, TONE_TABLE)
-        key = (id(triangle), scene.post.exposure, scene.post.gamma)
+        curve, post = self._programs.get("post/tone_table.frag", inputs, TONE_TABLE), inputs.plan.scene.post
+        key = (curve.serial, post.exposure, post.gamma)
         if self._tone is None:
             self._tone = self._ctx.framebuffer([_nearest(self._ctx.texture((1 << TONE_TABLE["TONE_COLUMN_BITS"], TONE_TABLE["TONE_ROWS"]), 4))])
         if key != self._tone_key:
             self._tone.use()
-            draw(triangle)
+            curve.draw()
             self._tone_key = key
         return self._tone.color_attachments[0]
 
-    def _bloom(self, scene: Scene, ray_plan: RayPlan, radiance: moderngl.Texture) -> moderngl.Texture:
+    def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
+        post = inputs.plan.scene.post
         self._make_levels(radiance.size)
-        source, size, threshold, centre = radiance, radiance.size, scene.post.bloom_threshold, 0.0
-        triangle = self._programs.get("post/bloom_down.frag", scene, ray_plan)
+        source, size, threshold, centre = radiance, radiance.size, post.bloom_threshold, 0.0
+        down = self._programs.get("post/bloom_down.frag", inputs)
         for level in self._down:
-            bind_samplers(triangle.program, {"source": source})
-            _set(triangle, **_places("source", source, size, level.size), threshold=threshold, centre_weight=centre)
-            _draw_into(level, triangle)
+            down.sample({"source": source})
+            down.set(**_places("source", source, size, level.size), threshold=threshold, centre_weight=centre)
+            _draw_into(level, down)
             source, size, threshold, centre = level.texture, level.size, 0.0, 4.0
-        triangle = self._programs.get("post/bloom_up.frag", scene, ray_plan)
-        share = scene.post.bloom_spread / (0.4 + scene.post.bloom_spread)
+        up = self._programs.get("post/bloom_up.frag", inputs)
+        share = post.bloom_spread / (0.4 + post.bloom_spread)
         for own, level in zip(reversed(self._down[:-1]), self._up):
-            bind_samplers(triangle.program, {"wider": source, "level": own.texture})
-            _set(triangle, **_places("wider", source, size, level.size), spread=share)
-            _draw_into(level, triangle)
+            up.sample({"wider": source, "level": own.texture})
+            up.set(**_places("wider", source, size, level.size), spread=share)
+            _draw_into(level, up)
             source, size = level.texture, level.size
         return source
 
@@ -151,9 +149,9 @@ def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: 
     }
 
 
-def _draw_into(level: _Level, triangle: moderngl.VertexArray) -> None:
+def _draw_into(level: _Level, prepared: Draw) -> None:
     level.frame.use()
-    draw(triangle)
+    prepared.draw()
 
 
 def _nearest(texture: moderngl.Texture) -> moderngl.Texture:
@@ -164,7 +162,3 @@ def _nearest(texture: moderngl.Texture) -> moderngl.Texture:
 def _texel(size: tuple[int, int]) -> tuple[float, float]:
     return 1.0 / size[0], 1.0 / size[1]
 
-
-def _set(triangle: moderngl.VertexArray, **uniforms: object) -> None:
-    for name, value in uniforms.items():
-        triangle.program[name].value = value

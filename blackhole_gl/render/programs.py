@@ -8,19 +8,24 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
 from pathlib import Path
 
 import moderngl
 
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
-from ..plan import RayPlan
+from ..plan import Plan
 from ..resources import shaders_dir
-from ..scene import Scene, catalogue
+from ..scene import catalogue
 from . import uniforms
+from .inputs import FrameInputs, UniformBuffers
 
 MOST_KEPT = 64
-"""Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as drivers keep what they compiled on disk."""
+"""Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as
+drivers keep what they compiled on disk."""
+
+_SERIALS = count(1)
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
@@ -44,6 +49,70 @@ class _Structure:
         return self._hash
 
 
+@dataclass(frozen=True, eq=False)
+class Compiled:
+    """A compiled program with the triangle that covers its target.
+
+    Attributes:
+        serial: a number that no other program of this process has, for the keys of what was drawn by it.
+    """
+
+    serial: int
+    triangle: moderngl.VertexArray
+
+    @property
+    def program(self) -> moderngl.Program:
+        """The program, which takes samplers and loose uniforms."""
+        return self.triangle.program
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        program = self.program  # which a released triangle no longer knows
+        self.triangle.release()
+        program.release()
+
+
+@dataclass(frozen=True, eq=False)
+class Draw:
+    """A program made ready for one frame's inputs.
+
+    Attributes:
+        serial: of its program.
+        inputs: what its uniform blocks hold when it draws.
+    """
+
+    compiled: Compiled
+    inputs: FrameInputs
+    _buffers: UniformBuffers
+
+    @property
+    def serial(self) -> int:
+        """That of the program."""
+        return self.compiled.serial
+
+    @property
+    def program(self) -> moderngl.Program:
+        """The program, which takes samplers and loose uniforms."""
+        return self.compiled.program
+
+    def sample(self, samplers: Mapping[str, moderngl.Texture]) -> None:
+        """Binds those of `samplers` (name → texture) that the program uses, to texture units 0, 1, …"""
+        used = [name for name in samplers if name in self.program]
+        for unit, name in enumerate(used):
+            samplers[name].use(unit)
+            self.program[name].value = unit
+
+    def set(self, **uniforms: object) -> None:
+        """Sets loose uniforms by name."""
+        for name, value in uniforms.items():
+            self.program[name].value = value
+
+    def draw(self) -> None:
+        """Draws the triangle that covers the bound target."""
+        self._buffers.bind(self.inputs)
+        self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
+
+
 class Programs:
     """The programs of one GL context, kept by the structure of what they draw: a slider never compiles anything.
 
@@ -60,13 +129,14 @@ class Programs:
         self.errors: list[ShaderError] = []
         self.deadline = math.inf
         self.compiled = 0
+        self._buffers = UniformBuffers(ctx)
         self._composed: OrderedDict[tuple, Composed] = OrderedDict()
-        self._triangles: OrderedDict[str, moderngl.VertexArray] = OrderedDict()
-        self._asked: tuple[Scene, RayPlan, _Structure] | None = None
+        self._kept: OrderedDict[str, Compiled] = OrderedDict()
+        self._asked: tuple[Plan, _Structure] | None = None
         self._seen = self._times()
 
-    def get(self, path: str, scene: Scene, ray_plan: RayPlan, extra: Mapping[str, int] | None = None) -> moderngl.VertexArray:
-        """The triangle that draws fragment shader `path` for `scene`; its ``program`` takes the samplers.
+    def get(self, path: str, inputs: FrameInputs, extra: Mapping[str, int] | None = None) -> Draw:
+        """What draws fragment shader `path` for `inputs`.
 
         Args:
             extra: switches beyond the scene's own.
@@ -75,19 +145,20 @@ class Programs:
             ShaderError: the text cannot be composed or compiled; it names file and line.
             Unready: it would have to be compiled, and the `deadline` has passed.
         """
-        recipe = path, self._structure(scene, ray_plan), tuple((extra or {}).items())
+        recipe = path, self._structure(inputs.plan), tuple((extra or {}).items())
         if recipe not in self._composed:
             self._composed[recipe] = self._compose(*recipe)
             if len(self._composed) > _MOST_RECIPES:
                 self._composed.popitem(last=False)
         self._composed.move_to_end(recipe)
-        return self._compiled(self._composed[recipe], by=self.deadline)
+        return Draw(self._compiled(self._composed[recipe], by=self.deadline), inputs, self._buffers)
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for triangle in self._triangles.values():
-            _release(triangle)
-        self._triangles.clear()
+        for compiled in self._kept.values():
+            compiled.release()
+        self._kept.clear()
+        self._buffers.release()
 
     def reload(self) -> list[ShaderError]:
         """Looks at the files' times; composes and compiles anew what changed. Returns the mistakes that stand."""
@@ -105,29 +176,29 @@ class Programs:
                     self.errors.append(error)
         return self.errors
 
-    def _structure(self, scene: Scene, ray_plan: RayPlan) -> _Structure:
-        """A frame asks for several programs with the same two objects: worked out once. One that is as before is the same object, found by its identity."""
-        if self._asked is None or self._asked[0] is not scene or self._asked[1] is not ray_plan:
-            found = _Structure(tuple(_chosen(scene, ray_plan).items()), tuple(uniforms.switches(scene, ray_plan).items()))
-            same = self._asked is not None and self._asked[2] == found
-            self._asked = scene, ray_plan, self._asked[2] if same else found
-        return self._asked[2]
+    def _structure(self, plan: Plan) -> _Structure:
+        """A frame asks for several programs with the same plan: worked out once. One that is as before is the same object, found by its identity."""
+        if self._asked is None or self._asked[0] is not plan:
+            found = _Structure(tuple(_chosen(plan).items()), tuple(uniforms.switches(plan).items()))
+            same = self._asked is not None and self._asked[1] == found
+            self._asked = plan, self._asked[1] if same else found
+        return self._asked[1]
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
         switches = dict(structure.switches + extra)
         return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
 
-    def _compiled(self, composed: Composed, *, by: float) -> moderngl.VertexArray:
-        if composed.text not in self._triangles:
+    def _compiled(self, composed: Composed, *, by: float) -> Compiled:
+        if composed.text not in self._kept:
             if clock.perf_counter() > by:
                 raise Unready("the programs of this scene are still being compiled")
-            self._triangles[composed.text] = self._compile(composed)
-            if len(self._triangles) > MOST_KEPT:
-                _release(self._triangles.popitem(last=False)[1])
-        self._triangles.move_to_end(composed.text)
-        return self._triangles[composed.text]
+            self._kept[composed.text] = self._compile(composed)
+            if len(self._kept) > MOST_KEPT:
+                self._kept.popitem(last=False)[1].release()
+        self._kept.move_to_end(composed.text)
+        return self._kept[composed.text]
 
-    def _compile(self, composed: Composed) -> moderngl.VertexArray:
+    def _compile(self, composed: Composed) -> Compiled:
         vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
         try:
             program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
@@ -137,38 +208,20 @@ class Programs:
             if block.name in program:
                 program[block.name].binding = block.binding
         self.compiled += 1
-        return self.ctx.vertex_array(program, [])
+        return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []))
 
     def _times(self) -> tuple:
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
 
 
-def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture]) -> None:
-    """Binds those of `samplers` (name → texture) that `program` uses, to texture units 0, 1, …"""
-    used = [name for name in samplers if name in program]
-    for unit, name in enumerate(used):
-        samplers[name].use(unit)
-        program[name].value = unit
-
-
-def draw(triangle: moderngl.VertexArray) -> None:
-    """Draws the triangle that covers the bound target."""
-    triangle.render(moderngl.TRIANGLES, vertices=3)
-
-
-def _release(triangle: moderngl.VertexArray) -> None:
-    program = triangle.program
-    triangle.release()
-    program.release()
-
-
-def _chosen(scene: Scene, ray_plan: RayPlan) -> dict[str, tuple[str, ...]]:
-    """Slot → paths of the plug-ins that the scene and its plan use."""
+def _chosen(plan: Plan) -> dict[str, tuple[str, ...]]:
+    """Slot → paths of the plug-ins that the plan and its scene use."""
+    scene = plan.scene
     layers = [p.path for p in catalogue.plug_ins("disk_layer").values() if scene.get(f"disk.{p.key}")]
     return {
-        "ray_model": (ray_plan.model.path,),
-        "integrator": (ray_plan.integrator.path,) if ray_plan.integrator else (),
-        "step_control": (ray_plan.step_control.path,) if ray_plan.step_control else (),
-        "disk_layer": tuple(layers) if ray_plan.orders else (),
+        "ray_model": (plan.model.path,),
+        "integrator": (plan.integrator.path,) if plan.integrator else (),
+        "step_control": (plan.step_control.path,) if plan.step_control else (),
+        "disk_layer": tuple(layers) if plan.orders else (),
         "sky": (catalogue.plug_ins("sky")[scene.sky.model].path,) if scene.sky.enabled else (),
     }

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ..plan import REFINE_STEP, RayPlan
-from ..scene import Scene
-from .programs import Programs, bind_samplers, draw
+from ..plan import REFINE_STEP
+from .inputs import FrameInputs
+from .programs import Draw, Programs
 
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
@@ -44,17 +44,18 @@ class CoarseGrid:
         self._node_textures: dict[str, moderngl.Texture] = {}
         self.classes: moderngl.Texture | None = None
 
-    def trace(self, triangle: moderngl.VertexArray, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
-        """Traces the grid for a picture of `size` with the trace pass `triangle`, judges its cells and sorts the pixels into `classes`."""
-        self._make_targets(size, 1 + min(ray_plan.orders, 2))
-        triangle.program["ray_grid"].value = REFINE_STEP, -REFINE_STEP, -REFINE_STEP
+    def trace(self, rays: Draw) -> None:
+        """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
+        inputs = rays.inputs
+        self._make_targets(inputs.size, 1 + min(inputs.plan.orders, 2))
+        rays.set(ray_grid=(REFINE_STEP, -REFINE_STEP, -REFINE_STEP))
         self._rays.use()
-        draw(triangle)
-        self._make_nodes(scene, ray_plan, size)
-        self._judge_cells(scene, ray_plan)
-        self._sort_pixels(scene, ray_plan, 0, size[1], all_traced=False)
+        rays.draw()
+        self._make_nodes(inputs)
+        self._judge_cells(inputs)
+        self._sort_pixels(inputs, 0, inputs.size[1], all_traced=False)
 
-    def trace_own_rays(self, triangle: moderngl.VertexArray, textures: Sequence[moderngl.Texture]) -> None:
+    def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
         """Traces the pixels that cannot be interpolated into `textures`, of the picture's size."""
         if self._own is None or self._own.color_attachments != tuple(textures):
             if self._own is not None:
@@ -64,10 +65,9 @@ class CoarseGrid:
         self._own.depth_mask = False
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = ">"  # pixels with rays of their own are nearer than this, all others farther
-        triangle.program["ray_grid"].value = 1.0, 0.0, 0.0
-        triangle.program["triangle_depth"].value = 2.0 * _OWN_RAYS - 1.0
-        draw(triangle)
-        triangle.program["triangle_depth"].value = 0.0
+        rays.set(ray_grid=(1.0, 0.0, 0.0), triangle_depth=2.0 * _OWN_RAYS - 1.0)
+        rays.draw()
+        rays.set(triangle_depth=0.0)
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
@@ -75,12 +75,12 @@ class CoarseGrid:
         """What common/hit_map_read.glsl reads, by name."""
         return {"cells": self._cells.color_attachments[0], **self._node_textures}
 
-    def give_own_rays(self, scene: Scene, ray_plan: RayPlan, first: int, end: int) -> None:
+    def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
         cells = self._cells.color_attachments[0]
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
-        self._sort_pixels(scene, ray_plan, first, end, all_traced=True)
+        self._sort_pixels(inputs, first, end, all_traced=True)
 
     def own_rays(self) -> np.ndarray:
         """Which pixels are traced themselves, bool (height, width), row 0 at the bottom; nodes of the grid left out. Waits for the GPU."""
@@ -101,32 +101,31 @@ class CoarseGrid:
         self._rays = self._nodes = self._cells = self._sorted = self._own = self.classes = self._made_for = None
         self._frames, self._node_textures = [], {}
 
-    def _make_nodes(self, scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> None:
-        triangle = self._programs.get("refine_nodes.frag", scene, ray_plan)
-        bind_samplers(triangle.program, {f"hits{k}": texture for k, texture in enumerate(self._rays.color_attachments)})
-        triangle.program["refine_tolerance"].value = tolerances(scene, ray_plan, size)
-        if ray_plan.orders:
-            triangle.program["beyond_disk"].value = _BEYOND_DISK
+    def _make_nodes(self, inputs: FrameInputs) -> None:
+        nodes = self._programs.get("refine_nodes.frag", inputs)
+        nodes.sample({f"hits{k}": texture for k, texture in enumerate(self._rays.color_attachments)})
+        nodes.set(refine_tolerance=tolerances(inputs))
+        if inputs.plan.orders:
+            nodes.set(beyond_disk=_BEYOND_DISK)
         self._nodes.use()
-        draw(triangle)
+        nodes.draw()
 
-    def _judge_cells(self, scene: Scene, ray_plan: RayPlan) -> None:
-        triangle = self._programs.get("refine_cells.frag", scene, ray_plan)
-        bind_samplers(triangle.program, {"kinds": self._nodes.color_attachments[0]})
+    def _judge_cells(self, inputs: FrameInputs) -> None:
+        cells = self._programs.get("refine_cells.frag", inputs)
+        cells.sample({"kinds": self._nodes.color_attachments[0]})
         self._cells.use()
-        draw(triangle)
+        cells.draw()
 
-    def _sort_pixels(self, scene: Scene, ray_plan: RayPlan, first: int, end: int, *, all_traced: bool) -> None:
-        triangle = self._programs.get("refine_classes.frag", scene, ray_plan)
+    def _sort_pixels(self, inputs: FrameInputs, first: int, end: int, *, all_traced: bool) -> None:
+        classes = self._programs.get("refine_classes.frag", inputs)
         cell_classes = self._cells.color_attachments[1]
-        bind_samplers(triangle.program, {"cell_classes": cell_classes})
-        triangle.program["pixels_to_cells"].value = tuple(1.0 / (REFINE_STEP * side) for side in cell_classes.size)
-        triangle.program["all_traced"].value = float(all_traced)
+        classes.sample({"cell_classes": cell_classes})
+        classes.set(pixels_to_cells=tuple(1.0 / (REFINE_STEP * side) for side in cell_classes.size), all_traced=float(all_traced))
         self._sorted.use()
         self._sorted.scissor = 0, first, self.classes.width, end - first
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        draw(triangle)
+        classes.draw()
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
@@ -158,12 +157,13 @@ class CoarseGrid:
         return self._frames[-1]
 
 
-def tolerances(scene: Scene, ray_plan: RayPlan, size: tuple[int, int]) -> tuple[float, float]:
-    """What interpolation may make of `ray_plan.refine_px` pixels, as shaders/refine_nodes.frag takes it.
+def tolerances(inputs: FrameInputs) -> tuple[float, float]:
+    """What interpolation may make of ``plan.refine_px`` pixels, as shaders/refine_nodes.frag takes it.
 
     Returns:
         Error of directions in rad; of crossings, for each r_s between them and the camera, or in r_s for parallel rays.
     """
-    pixel = math.radians(scene.camera.fov_deg) / size[1]
-    on_disk = 0.5 * scene.camera.field_m / size[1] if math.isinf(scene.camera.distance) else pixel
-    return ray_plan.refine_px * pixel, ray_plan.refine_px * on_disk
+    camera, height = inputs.plan.scene.camera, inputs.size[1]
+    pixel = math.radians(camera.fov_deg) / height
+    on_disk = 0.5 * camera.field_m / height if math.isinf(camera.distance) else pixel
+    return inputs.plan.refine_px * pixel, inputs.plan.refine_px * on_disk

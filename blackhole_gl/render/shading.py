@@ -5,13 +5,13 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .. import plan
-from ..physics import disk_profile, observer
+from ..physics import disk_profile
+from ..plan import Plan
 from ..resources import assets_dir
-from ..scene import Scene
 from . import star_cells
 from .hit_map import HitMap
-from .programs import Programs, bind_samplers, draw
+from .inputs import FrameInputs
+from .programs import Draw, Programs
 
 # Below these depths lie the classes of pixels that may cross the disk, and that may be of the sky (shaders/shade_classes.frag); beyond the
 # last those of flat cells (refine_classes.frag).
@@ -45,47 +45,48 @@ class ShadePass:
         self._sky_key: tuple | None = None
         self._sky_kept = False
 
-    def draw(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
-        """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning). The uniform blocks are bound."""
-        self._update_profile(scene)
-        self._attach(target, hit_map.classes or self._sorted_pixels(scene, ray_plan, hit_map))
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
+        """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning)."""
+        self._update_profile(inputs.plan)
+        self._attach(target, hit_map.classes or self._sorted_pixels(inputs, hit_map))
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
-        self._lay_sky(scene, ray_plan, hit_map, target)
-        if ray_plan.orders:
+        self._lay_sky(inputs, hit_map, target)
+        if inputs.plan.orders:
             self._frame.use()
             ctx.enable(moderngl.BLEND)
             ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
-            disk = self._prepared("shade_disk.frag", scene, ray_plan, hit_map, hit_map.switches())
+            disk = self._prepared("shade_disk.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.depth_func = "<"
 
-    def _lay_sky(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
+    def _lay_sky(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """The sky into the target. It does not depend on time: where the same one is asked for again it is kept, and copied from then on."""
+        scene = inputs.plan.scene
         if not scene.sky.enabled:
             self._clear(self._frame)
             return
-        triangle = self._programs.get("shade_sky.frag", scene, ray_plan, hit_map.switches())
+        sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        key = (id(triangle), self._classes_key, scene.camera.azimuth_deg, scene.sky, parameters)
+        key = (sky.serial, self._classes_key, inputs.plan.turn_deg, scene.sky, parameters)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
-            self._draw_sky(self._frame, scene, ray_plan, hit_map)
+            self._draw_sky(self._frame, inputs, hit_map)
             return
         if not self._sky_kept:
             if self._sky is None:
                 self._sky = self._ctx.framebuffer([self._ctx.texture(target.size, 4, dtype="f2")], self._depth)
-            self._draw_sky(self._sky, scene, ray_plan, hit_map)
+            self._draw_sky(self._sky, inputs, hit_map)
             self._sky_kept = True
         self._ctx.copy_framebuffer(target, self._sky)
 
-    def _draw_sky(self, frame: moderngl.Framebuffer, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> None:
+    def _draw_sky(self, frame: moderngl.Framebuffer, inputs: FrameInputs, hit_map: HitMap) -> None:
         self._clear(frame)
-        self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, hit_map.switches()), ">", _SKY)
+        self._draw_classes(self._prepared("shade_sky.frag", inputs, hit_map, hit_map.switches()), ">", _SKY)
         where_flat = hit_map.switches_where_flat()
         if where_flat is not None:
-            self._draw_classes(self._prepared("shade_sky.frag", scene, ray_plan, hit_map, where_flat), "<", _FLAT_SKY)
+            self._draw_classes(self._prepared("shade_sky.frag", inputs, hit_map, where_flat), "<", _FLAT_SKY)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -100,22 +101,22 @@ class ShadePass:
         self._tables, self._profile_key = {}, None
         self._release_classes()
 
-    def _prepared(self, path: str, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap, switches: dict[str, int]) -> moderngl.VertexArray:
-        triangle = self._programs.get(path, scene, ray_plan, switches)
-        bind_samplers(triangle.program, {**hit_map.samplers(), **self._tables})
-        return triangle
+    def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
+        prepared = self._programs.get(path, inputs, switches)
+        prepared.sample({**hit_map.samplers(), **self._tables})
+        return prepared
 
-    def _draw_classes(self, triangle: moderngl.VertexArray, depth_func: str, depth: float, box: Box | None = None) -> None:
+    def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
         """Draws where the pixel's class compares with `depth`: ``>`` where it is below, ``<`` where it is beyond; inside `box`, if one is given."""
         self._ctx.depth_func = depth_func
-        triangle.program["triangle_depth"].value = 2.0 * depth - 1.0
+        prepared.set(triangle_depth=2.0 * depth - 1.0)
         self._ctx.scissor = box
-        draw(triangle)
+        prepared.draw()
         self._ctx.scissor = None
 
-    def _sorted_pixels(self, scene: Scene, ray_plan: plan.RayPlan, hit_map: HitMap) -> moderngl.Texture:
-        size = hit_map.textures[0].size
-        key = (id(hit_map), hit_map.traces, size, ray_plan.orders, *plan.effective_disk_radii(scene))
+    def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
+        size, plan = hit_map.textures[0].size, inputs.plan
+        key = (hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer)
         if key == self._classes_key:
             self._disk_box = self._disk_box or _disk_box(self._depth)
             return self._depth
@@ -123,11 +124,11 @@ class ShadePass:
             self._release_classes()
             self._depth = self._ctx.depth_texture(size)
             self._classes = self._ctx.framebuffer([], self._depth)
-        triangle = self._prepared("shade_classes.frag", scene, ray_plan, hit_map, hit_map.switches())
+        classes = self._prepared("shade_classes.frag", inputs, hit_map, hit_map.switches())
         self._classes.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        draw(triangle)
+        classes.draw()
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._classes_key, self._disk_box = key, None
         return self._depth
@@ -150,9 +151,9 @@ class ShadePass:
         self._classes_key, self._sky_key, self._sky_kept = None, None, False
         self._disk_box = None
 
-    def _update_profile(self, scene: Scene) -> None:
-        inner, outer = plan.effective_disk_radii(scene)
-        key = (scene.disk.temperature_law, observer.effective_spin(scene), scene.disk.orbit, inner, outer)
+    def _update_profile(self, plan: Plan) -> None:
+        disk = plan.scene.disk
+        key = (disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer)
         if key == self._profile_key:
             return
         values = disk_profile.table(*key)

@@ -9,21 +9,25 @@ import math
 from collections.abc import Mapping
 from functools import cache
 
-from .. import plan
 from ..glsl.blocks import Block
-from ..physics import observer, orbit_table, relativity, shear
-from ..scene import Scene, fields
+from ..physics import observer, orbit_table, shear
+from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
+from ..scene import fields
 
 RAY_BLOCK = Block(
     "RayBlock",
     0,
     (
         ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
-        ("camera_n", "vec4"),  # from the hole to the camera, in the frame of its meridian (x, z); w: sine of the inclination
+        ("camera_n", "vec4"),  # from the hole to the camera, in the plan's frame; w: sine of the inclination
         ("camera_e_theta", "vec4"),
         ("camera_e_phi", "vec4"),
+        ("view_back", "vec4"),  # world axes of the view, as camera_n, e_θ and e_φ for a camera that looks at the hole
+        ("view_down", "vec4"),
+        ("view_right", "vec4"),
         ("picture_size", "vec2"),  # pixels of the whole picture
         ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+        ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
         ("orbit_factors", "vec2"),  # from angular momentum to the coordinate of orbit_table.py
         ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
         ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
@@ -43,7 +47,7 @@ SHADE_BLOCK = Block(
     (
         ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
         ("shear_seed", "vec4"),
-        ("camera_heading", "vec2"),  # (cos, sin) of the camera's azimuth: turns hits from its meridian's frame to the world
+        ("camera_heading", "vec2"),  # (cos, sin) of the angle that turns hits from the plan's frame to the world
         ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
         ("disk_r_in", "float"),  # r_s, as used
         ("disk_r_out", "float"),
@@ -70,74 +74,76 @@ def blocks() -> tuple[Block, ...]:
     return RAY_BLOCK, SHADE_BLOCK, scene_block()
 
 
-def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
-    """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64.
-
-    Every space-time here is symmetric about the spin axis: rays are those of a camera at azimuth 0, whatever its azimuth is, so that a
-    camera turned about the axis keeps its hits.
+def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
+    """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64, in the plan's frame.
 
     Raises:
-        ValueError: the camera is inside the horizon.
+        ValueError: the camera is inside the horizon, or looks where it cannot.
     """
-    seen = observer.observe(scene.with_values({"camera.azimuth_deg": 0.0}))
-    spin = observer.horizon_spin(scene)
+    scene, where = plan.scene, plan.space_time
+    seen = observer.observe(scene.with_values({"camera.azimuth_deg": plan.azimuth_deg}))
     half_height = 0.5 * scene.camera.field_m if seen.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
-    r_plus = float(relativity.horizon_radius(spin))
+    picture_scale = half_height / size[1]
+    right, up = seen.hole_on_screen
+    back, down, aside = seen.axes
     return dict(
         observer_map=seen.observer_map,
         camera_n=(*seen.n, math.hypot(seen.n[0], seen.n[1])),
         camera_e_theta=(*seen.e_theta, 0.0),
         camera_e_phi=(*seen.e_phi, 0.0),
+        view_back=(*back, 0.0),
+        view_down=(*down, 0.0),
+        view_right=(*aside, 0.0),
         picture_size=size,
         picture_offset=offset,
+        picture_hole=(0.5 * size[0] + 0.5 * right / picture_scale, 0.5 * size[1] + 0.5 * up / picture_scale),
         orbit_factors=orbit_table.coordinate_factors(scene.camera.distance),
-        hole_w_factors=(2.0 * r_plus, 2.0 * float(relativity.inner_horizon_radius(spin))),
-        picture_scale=half_height / size[1],
+        hole_w_factors=(2.0 * where.horizon_radius, 2.0 * where.inner_horizon_radius),
+        picture_scale=picture_scale,
         camera_w=seen.w,
-        hole_w_stop=0.5 / observer.stop_radius(spin),
-        crossing_r_min=plan.INNERMOST_CROSSING * r_plus,
-        march_bound=plan.march_bound(scene),
-        plan_step_length=ray_plan.step_length,
-        plan_step_angle=ray_plan.step_angle,
-        plan_max_steps=ray_plan.max_steps,
+        hole_w_stop=0.5 / where.stop_radius,
+        crossing_r_min=INNERMOST_CROSSING * where.horizon_radius,
+        march_bound=plan.march_bound,
+        plan_step_length=plan.step_length,
+        plan_step_angle=plan.step_angle,
+        plan_max_steps=plan.max_steps,
     )
 
 
-def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
+def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
     """Values of `SHADE_BLOCK` at scene time `time` (r_s/c)."""
-    spin = observer.effective_spin(scene)
-    inner, outer = plan.effective_disk_radii(scene)
+    scene = plan.scene
     ages, weights, seeds = shear.shear_phases(time)
     clear = min(max(1.0 - scene.disk.opacity, 1e-3), 0.999)
     return dict(
         shear_phase=(*ages, *weights),
         shear_seed=(*seeds, 0.0, 0.0),
-        camera_heading=observer.cos_sin_deg(scene.camera.azimuth_deg),
+        camera_heading=observer.cos_sin_deg(plan.turn_deg),
         disk_veil=(math.log2(clear), 1.0 / (1.0 - clear)),
-        disk_r_in=inner,
-        disk_r_out=outer,
-        disk_spin_sign=float(relativity.orbit_sense(spin, scene.disk.orbit)),
-        hole_spin_complement=1.0 - abs(spin),
+        disk_r_in=plan.disk_inner,
+        disk_r_out=plan.disk_outer,
+        disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
+        hole_spin_complement=1.0 - abs(plan.space_time.spin),
     )
 
 
-def scene_values(scene: Scene) -> dict[str, object]:
-    """Values of `scene_block`. The spin is that of the model: 0 where the model has none. Infinite distances are given as 0."""
-    values = {name: scene.get(key) for key, name in _number_names()}
-    values["hole_spin"] = observer.effective_spin(scene)
-    if math.isinf(scene.camera.distance):
+def scene_values(plan: Plan) -> dict[str, object]:
+    """Values of `scene_block`. The spin is that of the space-time: 0 where the model has none. Infinite distances are given as 0."""
+    values = {name: plan.scene.get(key) for key, name in _number_names()}
+    values["hole_spin"] = plan.space_time.spin
+    if math.isinf(plan.scene.camera.distance):
         values["camera_distance"] = 0.0
     return values
 
 
-def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
+def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": plan.REFINE_STEP}
+    found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": REFINE_STEP}
     found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
     for key, name in _switch_names():
-        found[name] = int(scene.get(key))
+        found[name] = int(plan.scene.get(key))
     for key, names in _choice_names():
-        value = scene.get(key)
+        value = plan.scene.get(key)
         found.update({name: int(value == option) for option, name in names})
     return found
 
@@ -155,12 +161,10 @@ def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
     return tuple((key, tuple((option, f"{item.glsl_name}_{option}".upper()) for option in item.options)) for key, item in choices)
 
 
-def as_bytes(scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
-    """The packed blocks by name."""
+def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
+    """The packed blocks by name, for a `picture` of so many pixels of which the part from `offset` on is drawn."""
     return {
-        RAY_BLOCK.name: RAY_BLOCK.pack(ray_values(scene, ray_plan, size, offset)),
-        SHADE_BLOCK.name: SHADE_BLOCK.pack(shade_values(scene, time)),
-        scene_block().name: scene_block().pack(scene_values(scene)),
+        RAY_BLOCK.name: RAY_BLOCK.pack(ray_values(plan, picture, offset)),
+        SHADE_BLOCK.name: SHADE_BLOCK.pack(shade_values(plan, time)),
+        scene_block().name: scene_block().pack(scene_values(plan)),
     }
-
-

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from blackhole_gl.physics import observer, relativity
+from blackhole_gl.physics.space_time import space_time
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
 
@@ -38,7 +39,7 @@ def random_rays(scene: Scene, count: int, seed: int, away: float = 1e-2) -> np.n
     Half of them uniform in solid angle over a view 15 r_s wide at the hole, half uniform in ψ over the whole sky.
     """
     rng = np.random.default_rng(seed)
-    camera, spin = scene.camera, observer.horizon_spin(scene)
+    camera, spin = scene.camera, space_time(scene).horizon_spin
     chi = rng.uniform(0.0, 2.0 * np.pi, 2 * count)
     reach = min(math.pi, 1.2 * math.atan(15.0 / camera.distance))
     share = rng.uniform(0.0, 1.0, 2 * count)

@@ -15,12 +15,13 @@ from blackhole_gl import plan
 from blackhole_gl.glsl.compose import ShaderError
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_map import HitMap
+from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import Scene, catalogue, fields, presets
 
 SCENE = presets.load(["kerr"])
-PLAN = plan.plan(SCENE)
+INPUTS = FrameInputs.whole(plan.plan(SCENE), 0.0, (16, 9))
 
 
 @pytest.fixture
@@ -42,38 +43,38 @@ def edit(path: Path, old: str, new: str) -> int:
 def test_a_mistake_names_the_authors_file_and_line(ctx: moderngl.Context, copy: Path) -> None:
     line = edit(copy / "ray_models" / "kerr.glsl", "float a = hole_spin;", "float a = hole_spinn;")
     with pytest.raises(ShaderError, match="hole_spinn") as caught:
-        Programs(ctx, copy).get("trace.frag", SCENE, PLAN)
+        Programs(ctx, copy).get("trace.frag", INPUTS)
     assert (caught.value.file, caught.value.line) == ("ray_models/kerr.glsl", line)
 
 
 def test_a_mistake_after_switches_and_blocks_keeps_its_line(ctx: moderngl.Context, copy: Path) -> None:
     line = edit(copy / "trace.frag", "store_hits(", "store_hit(")
     with pytest.raises(ShaderError) as caught:
-        Programs(ctx, copy).get("trace.frag", SCENE, PLAN)
+        Programs(ctx, copy).get("trace.frag", INPUTS)
     assert (caught.value.file, caught.value.line) == ("trace.frag", line)
 
 
 def test_reload_takes_up_a_change_and_survives_a_mistake(ctx: moderngl.Context, copy: Path) -> None:
     programs = Programs(ctx, copy)
-    good = programs.get("trace.frag", SCENE, PLAN)
-    assert programs.reload() == [] and programs.get("trace.frag", SCENE, PLAN) is good
+    good = programs.get("trace.frag", INPUTS)
+    assert programs.reload() == [] and programs.get("trace.frag", INPUTS).serial == good.serial
 
     path = copy / "ray_models" / "kerr.glsl"
     line = edit(path, "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return ESCAPE;")
     (error,) = programs.reload()
     assert (error.file, error.line) == ("ray_models/kerr.glsl", line) and "ESCAPE" in error.message
-    assert programs.get("trace.frag", SCENE, PLAN) is good, "the last good program goes on"
+    assert programs.get("trace.frag", INPUTS).serial == good.serial, "the last good program goes on"
     assert [str(e) for e in programs.reload()] == [str(error)], "the mistake stands until it is mended"
 
     edit(path, "return ESCAPE;", "return CAPTURED;")
     assert programs.reload() == []
-    changed = programs.get("trace.frag", SCENE, PLAN)
-    assert changed is not good
+    changed = programs.get("trace.frag", INPUTS)
+    assert changed.serial != good.serial
 
 
 def test_a_missing_include_is_reported_where_it_is_asked_for(ctx: moderngl.Context, copy: Path) -> None:
     programs = Programs(ctx, copy)
-    programs.get("trace.frag", SCENE, PLAN)
+    programs.get("trace.frag", INPUTS)
     line = edit(copy / "trace.frag", '#include "common/hits.glsl"', '#include "common/hit.glsl"')
     (error,) = programs.reload()
     assert (error.file, error.line) == ("trace.frag", line)

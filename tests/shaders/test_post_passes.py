@@ -8,6 +8,7 @@ import pytest
 
 from blackhole_gl import plan
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import PostPass, bloom_sizes
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.scene import Scene
@@ -30,13 +31,11 @@ def developed(ctx, renderer):
     def run(radiance: np.ndarray, **values) -> np.ndarray:
         height, width, _ = radiance.shape
         scene = Scene().with_values({**QUIET, **{key.replace("__", ".", 1): value for key, value in values.items()}})
-        ray_plan = plan.plan(scene)
-        renderer._bind(scene, ray_plan, 0.0, (width, height), (0.0, 0.0))
         data = np.concatenate([radiance, np.ones((height, width, 1))], -1).astype(np.float16)
         source = ctx.texture((width, height), 4, data.tobytes(), dtype="f2")
         target = ctx.framebuffer([ctx.texture((width, height), 4, dtype="f4")])
         post = PostPass(ctx, renderer.programs)
-        post.draw(scene, ray_plan, source, target, (0, 0, width, height))
+        post.draw(FrameInputs.whole(plan.plan(scene), 0.0, (width, height)), source, target, (0, 0, width, height))
         found = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3].copy()
         post.release()
         return found
@@ -110,14 +109,12 @@ def test_the_tone_table_follows_every_number(ctx, renderer) -> None:
 def test_a_picture_larger_than_its_radiance_is_filtered(ctx, renderer) -> None:
     """A step of light, shown twice as large, has pixels between its sides."""
     scene = Scene().with_values(QUIET)
-    ray_plan = plan.plan(scene)
-    renderer._bind(scene, ray_plan, 0.0, (8, 8), (0.0, 0.0))
     data = np.zeros((8, 8, 4), np.float16)
     data[:, 4:] = 0.2
     source = ctx.texture((8, 8), 4, data.tobytes(), dtype="f2")
     target = ctx.framebuffer([ctx.texture((16, 16), 4)])
     post = PostPass(ctx, renderer.programs)
-    post.draw(scene, ray_plan, source, target, (0, 0, 16, 16))
+    post.draw(FrameInputs.whole(plan.plan(scene), 0.0, (8, 8)), source, target, (0, 0, 16, 16))
     row = np.frombuffer(target.read(components=3), np.uint8).reshape(16, 16, 3)[8, :, 0]
     assert len(set(row.tolist())) == 4 and (np.diff(row.astype(int)) >= 0).all()
     for item in (post, source, target):

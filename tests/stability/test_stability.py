@@ -9,6 +9,7 @@ import pytest
 
 from blackhole_gl import plan
 from blackhole_gl.physics import observer, relativity
+from blackhole_gl.plan import make
 from blackhole_gl.render.frame import Renderer
 from studies import stability, stability_page
 from studies.stability_cases import CASES, impact
@@ -117,8 +118,11 @@ def test_escape_directions_do_not_depend_on_the_stop_radius(renderer: Renderer, 
     rays = impact(3.0, 5.0, 7.0)(scene)
     directions = observer.local_directions(rays[:, 0], rays[:, 1])
     usual, _, _ = renderer.trace_listed(scene, directions)
-    monkeypatch.setattr(plan, "MARCH_BOUND", bound)
-    moved, _, _ = renderer.trace_listed(scene, directions)
+    with monkeypatch.context() as changed:
+        changed.setattr(make, "MARCH_BOUND", bound)
+        plan.plan.cache_clear()
+        moved, _, _ = renderer.trace_listed(scene, directions)
+        plan.plan.cache_clear()
     assert np.any(moved.steps != usual.steps)
     assert np.linalg.norm(moved.direction - usual.direction, axis=1).max() < 2e-5
 

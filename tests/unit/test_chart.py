@@ -213,10 +213,10 @@ def test_the_chart_s_rays_are_those_of_pixels(renderer: Renderer, near: ChartSce
     scene = Method("kerr", "rk4", "mino").applied(near.scene, 0.1)
     width, height = choice.REFINED_SIZE
     assert near.pixels.min() >= 0 and np.all(near.pixels < (width, height)) and len(np.unique(near.pixels, axis=0)) > 90
-    renderer.time_trace(scene, choice.REFINED_SIZE)
+    renderer.time_trace(plan.plan(scene), choice.REFINED_SIZE)
     x, y = near.pixels.T
     listed = listed_rays.trace_by_shader(renderer, scene, near.rays[: near.count])
-    renderer.time_trace(scene, choice.REFINED_SIZE)
+    renderer.time_trace(plan.plan(scene), choice.REFINED_SIZE)
     found = renderer.hits()
     np.testing.assert_array_equal(found.fate[y, x], listed.fate)
     escaped = (listed.fate == 1) & (near.epsilon[: near.count] > 1e-2)

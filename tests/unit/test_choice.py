@@ -95,9 +95,9 @@ def test_thin_rings_are_not_traced():
 
 def test_without_a_table_steps_are_plain(monkeypatch):
     monkeypatch.setattr(choice, "measurements", lambda: ())
-    choice.forget_choices()
+    plan.forget_measurements()
     made = choice.choose(Scene())
-    choice.forget_choices()
+    plan.forget_measurements()
     assert made.chosen is None and "no measurements" in made.reasons[0] and made.scene.rays.step_angle == 0.2
 
 
@@ -117,11 +117,11 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
 
     def put(*rows: choice.Measured) -> None:
         monkeypatch.setattr(choice, "measurements", lambda: rows)
-        choice.forget_choices()
+        plan.forget_measurements()
 
     yield put
     monkeypatch.undo()
-    choice.forget_choices()
+    plan.forget_measurements()
 
 
 def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(measured):

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from blackhole_gl.physics import observer, relativity
+from blackhole_gl.physics.space_time import space_time
 from blackhole_gl.reference import observers as twin
 from blackhole_gl.scene import Scene, catalogue
 
@@ -132,11 +133,12 @@ def test_every_ray_model_has_an_observer(model):
 
 def test_spin_belongs_to_models_that_have_it():
     spinning = {"spin": 0.9}
-    assert observer.effective_spin(scene_of("kerr", **spinning)) == 0.9
-    assert observer.effective_spin(scene_of("schwarzschild", **spinning)) == 0.0
-    assert observer.horizon_spin(scene_of("kerr_like", **spinning)) == 0.0
+    assert space_time(scene_of("kerr", **spinning)).spin == 0.9
+    assert space_time(scene_of("schwarzschild", **spinning)).spin == 0.0
+    assert space_time(scene_of("kerr_like", **spinning)).horizon_spin == 0.0
 
 
 @pytest.mark.parametrize("spin", [0.0, 0.5, 0.9, 0.998, 0.9999, -0.9999])
 def test_rays_are_taken_as_captured_between_the_horizon_and_the_photon_orbit(spin):
-    assert relativity.horizon_radius(spin) < observer.stop_radius(spin) < relativity.photon_orbit_radius(spin)
+    stop = space_time(scene_of("kerr", spin=spin)).stop_radius
+    assert relativity.horizon_radius(spin) < stop < relativity.photon_orbit_radius(spin)

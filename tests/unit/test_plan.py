@@ -22,7 +22,7 @@ STATED = {
 """A method stated in full, so that nothing is left for the plan to choose."""
 
 
-def planned(keep_crossings: bool = False, **changes) -> plan.RayPlan:
+def planned(keep_crossings: bool = False, **changes) -> plan.Plan:
     stated = {**STATED, **{key.replace("__", "."): value for key, value in changes.items()}}
     return plan.plan(Scene().with_values(stated), keep_crossings=keep_crossings)
 
@@ -75,6 +75,7 @@ def test_the_method_is_named_in_a_few_words():
 
 def test_parts_that_cannot_be_combined_are_refused(monkeypatch):
     monkeypatch.setattr(catalogue, "reasons_against", lambda *_: ["these do not go together"])
+    plan.plan.cache_clear()  # a refusal is not kept, so nothing of this stays
     with pytest.raises(SceneError, match="rays.integrator: these do not go together"):
         planned()
 
@@ -82,17 +83,18 @@ def test_parts_that_cannot_be_combined_are_refused(monkeypatch):
 @pytest.mark.parametrize("spin, orbit", [(0.0, "prograde"), (0.9, "prograde"), (0.9, "retrograde"), (-0.9, "prograde")])
 def test_the_disk_never_reaches_inside_the_isco(spin, orbit):
     scene = Scene().with_values({"hole.spin": spin, "disk.orbit": orbit, "disk.inner_radius": 0.5})
-    assert plan.effective_disk_radii(scene)[0] == pytest.approx(float(relativity.isco_radius(spin, orbit)))
-    assert plan.effective_disk_radii(scene.with_values({"disk.inner_radius": 9.0}))[0] == 9.0
+    assert plan.plan(scene).disk_inner == pytest.approx(float(relativity.isco_radius(spin, orbit)))
+    assert plan.plan(scene.with_values({"disk.inner_radius": 9.0})).disk_inner == 9.0
 
 
 def test_the_outer_edge_is_never_inside_the_inner_one():
-    inner, outer = plan.effective_disk_radii(Scene().with_values({"disk.outer_radius": 1.0}))
+    made = plan.plan(Scene().with_values({"disk.outer_radius": 1.0}))
+    inner, outer = made.disk_inner, made.disk_outer
     assert outer > inner == 3.0
 
 
 def test_far_rays_are_finished_in_closed_form_farther_out_where_gravity_is_stronger():
-    assert plan.march_bound(Scene()) == plan.MARCH_BOUND
+    assert plan.plan(Scene()).march_bound == plan.MARCH_BOUND
     assert plan.march_bound(Scene().with_values({"hole.gravity_strength": 4.0})) == 4.0 * plan.MARCH_BOUND
 
 

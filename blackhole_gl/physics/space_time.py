@@ -1,0 +1,95 @@
+"""The space-time of a scene: the one owner of which spin counts where, and of the radii that follow from it.
+
+Ray models disagree about what the hole's spin does. In Kerr it shapes everything. `kerr_like` drags light about the axis, but its orbits, its horizon and
+its observers are Schwarzschild's. Flat space has no spin at all, and still a black ball of Kerr's size to stand for the hole, and matter on Kerr's orbits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from ..scene import Scene, catalogue
+from . import relativity
+
+
+@dataclass(frozen=True)
+class SpaceTime:
+    """What light runs in.
+
+    Attributes:
+        kind: ``flat``, ``schwarzschild`` or ``kerr``: the metric of the observer's frame.
+        spin: a* that light's model, matter and its colours feel; 0 for a model without spin.
+        observer_spin: a* of the metric that the observer sits in.
+        horizon_spin: a* that horizon, photon orbits and innermost stable orbit are those of.
+    """
+
+    kind: str
+    spin: float
+    observer_spin: float
+    horizon_spin: float
+
+    @cached_property
+    def horizon_radius(self) -> float:
+        """r_+ in r_s."""
+        return float(relativity.horizon_radius(self.horizon_spin))
+
+    @cached_property
+    def inner_horizon_radius(self) -> float:
+        """r_- in r_s."""
+        return float(relativity.inner_horizon_radius(self.horizon_spin))
+
+    @cached_property
+    def prograde_photon_orbit(self) -> float:
+        """Radius in r_s of the innermost circular orbit of light."""
+        return float(relativity.photon_orbit_radius(abs(self.horizon_spin)))
+
+    @cached_property
+    def stop_radius(self) -> float:
+        """Radius in r_s below which an inward ray is captured without further march.
+
+        Halfway to the prograde photon orbit at most: for spins near 1 that orbit lies closer to the horizon than one per cent.
+        """
+        return self.horizon_radius + min(0.01 * self.horizon_radius, 0.5 * (self.prograde_photon_orbit - self.horizon_radius))
+
+    def isco_radius(self, orbit: str) -> float:
+        """Innermost stable circular orbit in r_s, ``prograde`` or ``retrograde``, of the space-time in which light runs.
+
+        With `kerr_like` that is Schwarzschild's, whatever the spin: light and matter of two space-times make no sense together close in.
+        """
+        return float(relativity.isco_radius(self.horizon_spin, orbit))
+
+    def matter_isco_radius(self, orbit: str) -> float:
+        """The same of the space-time whose circular orbits the matter's frequency shift is worked out for."""
+        return float(relativity.isco_radius(self.spin, orbit))
+
+    def orbit_sense(self, orbit: str) -> float:
+        """+1 where the matter goes counter-clockwise seen from +z, −1 where clockwise."""
+        return float(relativity.orbit_sense(self.spin, orbit))
+
+
+def ray_model(scene: Scene) -> catalogue.PlugIn:
+    """The plug-in that traces `scene`: its ``rays.model``, or ``flat`` with lensing off.
+
+    For ``auto``, the exact and general model of its hole; the plan may choose a cheaper one of the same space-time.
+    """
+    if not scene.rays.lensing:
+        key = "flat"
+    elif scene.rays.model == "auto":
+        artistic = scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0
+        key = "schwarzschild" if artistic else "kerr"
+    else:
+        key = scene.rays.model
+    return catalogue.plug_ins("ray_model")[key]
+
+
+def space_time(scene: Scene) -> SpaceTime:
+    """The space-time of `scene`'s ray model."""
+    traits = ray_model(scene).traits
+    return _space_time(traits["space_time"], traits["spins"], scene.hole.spin)
+
+
+@lru_cache(maxsize=256)
+def _space_time(kind: str, spins: bool, hole_spin: float) -> SpaceTime:
+    spin = hole_spin if spins else 0.0
+    return SpaceTime(kind, spin, observer_spin=spin if kind == "kerr" else 0.0, horizon_spin=0.0 if kind == "schwarzschild" else spin)

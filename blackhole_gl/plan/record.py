@@ -1,0 +1,84 @@
+"""The plan of a frame: the scene with nothing left open, its space-time, and how its rays are traced."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from ..physics.space_time import SpaceTime
+from ..scene import Scene
+from ..scene.catalogue import PlugIn
+
+REFINE_STEP = 4
+"""Pixels between the exact rays of a refined hit map's coarse grid."""
+
+INNERMOST_CROSSING = 1.02
+"""The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge."""
+
+Frame = Literal["meridian", "world"]
+MERIDIAN: Frame = "meridian"
+WORLD: Frame = "world"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a picture of a scene is made by.
+
+    Attributes:
+        scene: the scene with nothing left open.
+        space_time: what light runs in there.
+        model, integrator, step_control: plug-ins; the last two are None for closed models.
+        step_length: Δt₀ in r_s, as used.
+        step_angle: κ in radians, as used.
+        max_steps: no ray takes more.
+        march_bound: radius in r_s beyond which outward rays are finished in closed form.
+        orders: crossings of the disk's plane that are kept, 0 without a disk.
+        disk_inner, disk_outer: the disk's edges in r_s, as used.
+        refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
+        frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
+            which turns about the axis keeps its hits, where everything that rays meet is symmetric about the axis; else the ``world``.
+        reasons: why, a sentence each, for people.
+    """
+
+    scene: Scene
+    space_time: SpaceTime
+    model: PlugIn
+    integrator: PlugIn | None
+    step_control: PlugIn | None
+    step_length: float
+    step_angle: float
+    max_steps: int
+    march_bound: float
+    orders: int
+    disk_inner: float
+    disk_outer: float
+    refine_px: float
+    frame: Frame
+    reasons: tuple[str, ...]
+
+    @property
+    def azimuth_deg(self) -> float:
+        """Azimuth of the camera in the frame that rays are traced in."""
+        return 0.0 if self.frame == MERIDIAN else self.scene.camera.azimuth_deg
+
+    @property
+    def turn_deg(self) -> float:
+        """Angle about the spin axis that takes this frame to the world."""
+        return self.scene.camera.azimuth_deg - self.azimuth_deg
+
+    @property
+    def evaluations_per_step(self) -> int:
+        """Right-hand-side evaluations in one step, tried ones included; 0 for closed models."""
+        if self.integrator is None or self.step_control is None:
+            return 0
+        evaluations = "pair_evaluations" if self.step_control.traits.get("needs_pair") else "evaluations"
+        return self.integrator.traits[evaluations] * self.step_control.traits.get("integrator_steps", 1)
+
+    @property
+    def method(self) -> str:
+        """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
+        if self.integrator is None or self.step_control is None:
+            return self.model.key
+        step = f"κ = {self.step_angle:.3g}" if self.model.traits["marches_in"] == "mino" else f"Δt₀ = {self.step_length:.3g}"
+        control = "" if self.step_control.key == "mino" else f"{self.step_control.key}, "
+        return f"{self.model.key}, {self.integrator.key}, {control}{step}"

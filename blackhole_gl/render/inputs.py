@@ -1,0 +1,79 @@
+"""What a frame is made from, as one record. Its uniform blocks follow from it and from nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import moderngl
+
+from ..plan import Plan
+from . import uniforms
+
+
+@dataclass(frozen=True)
+class FrameInputs:
+    """One frame, or a part of one.
+
+    Attributes:
+        plan: the plan, with the scene in it.
+        time: scene time in r_s/c.
+        size: (width, height) in pixels of what is drawn.
+        picture: (width, height) in pixels of the whole picture that it is a part of.
+        offset: of the drawn part in the picture, in pixels from the bottom left, with the shift of the rays inside their pixels.
+    """
+
+    plan: Plan
+    time: float
+    size: tuple[int, int]
+    picture: tuple[int, int]
+    offset: tuple[float, float] = (0.0, 0.0)
+
+    @classmethod
+    def whole(cls, plan: Plan, time: float, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> FrameInputs:
+        """A whole picture of `size`, its rays shifted by `offset` pixels."""
+        return cls(plan, time, size, size, offset)
+
+    def with_plan(self, plan: Plan) -> FrameInputs:
+        """The same frame by another plan."""
+        return replace(self, plan=plan)
+
+    @cached_property
+    def blocks(self) -> dict[str, bytes]:
+        """The packed uniform blocks by name.
+
+        Raises:
+            ValueError: the camera is where no observer can be.
+        """
+        return uniforms.as_bytes(self.plan, self.time, self.picture, self.offset)
+
+    @cached_property
+    def ray_bytes(self) -> bytes:
+        """The block of what rays depend on: part of the key of hits that are kept."""
+        return self.blocks[uniforms.RAY_BLOCK.name]
+
+
+class UniformBuffers:
+    """The buffers of the uniform blocks: the one place where a frame's inputs are bound."""
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self._buffers: dict[str, moderngl.Buffer] = {}
+        self._written: FrameInputs | None = None
+
+    def bind(self, inputs: FrameInputs) -> None:
+        """Binds the blocks of `inputs`, written anew unless they are those written last. Binding is not remembered: others may share the context."""
+        for block in uniforms.blocks():
+            buffer = self._buffers.get(block.name)
+            if buffer is None:
+                buffer = self._buffers[block.name] = self._ctx.buffer(inputs.blocks[block.name], dynamic=True)
+            elif inputs is not self._written:
+                buffer.write(inputs.blocks[block.name])
+            buffer.bind_to_uniform_block(block.binding)
+        self._written = inputs
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for buffer in self._buffers.values():
+            buffer.release()
+        self._buffers, self._written = {}, None
