@@ -50,6 +50,6 @@ void main() {
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
     cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
-    float shared_class = disk ? 0.15 : flat_sky ? 0.75 : fate == uint(ESCAPED) ? 0.25 : 0.5;
-    class_out = trusted ? shared_class : 0.05;
+    int shared_class = disk ? PIXEL_DISK : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
+    class_out = class_depth(trusted ? shared_class : PIXEL_OWN_RAY);
 }

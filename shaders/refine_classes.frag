@@ -1,9 +1,6 @@
 #version 330 core
 // Classes of the cells → depth: what a pixel of a refined map will need. A cell's pixels share one class, which may be wider than a pixel needs.
-//
-//   0.05  a ray of its own: trace.frag is still to draw it, and the depth test keeps it from all others; it may need anything
-//   0.15, 0.25, 0.5  as in shade_classes.frag
-//   0.75             as 0.25, and flat: directions may be interpolated linearly, and nothing else is read (HIT_MAP_REFINED = 2)
+// PIXEL_OWN_RAY: trace.frag is still to draw it, and the depth test keeps it from all others. PIXEL_FLAT_SKY: read with HIT_MAP_REFINED = 2.
 #defines
 #blocks
 

@@ -8,6 +8,8 @@
 #defines
 #blocks
 #include "common/constants.glsl"
+#include "common/hits.glsl"
+#include "common/hit_texels.glsl"
 #include "common/escape_chart.glsl"
 #include "common/node_kinds.glsl"
 
@@ -71,9 +73,9 @@ uint kind_of_crossing(vec2 point, vec4 bend) {
 }
 
 uint kinds_of_fates(vec4 star[5]) {
-    int fate = int(star[0].w + 0.5) & 3;
+    int fate = texel_fate(star[0]);
     for (int i = 1; i < 5; ++i)
-        fate = (int(star[i].w + 0.5) & 3) == fate ? fate : UNRESOLVED;
+        fate = texel_fate(star[i]) == fate ? fate : UNRESOLVED;
     return uint(fate);
 }
 
@@ -108,8 +110,8 @@ void main() {
         v[i] = chart_point(escapes[i].xyz);
     bend0_out = bend_of(v);
     kinds_out = kinds_of_fates(escapes) | kind_of_direction(v[0], bend0_out);
-    float steps = floor(0.25 * escapes[0].w);
-    coarse0_out = vec4(v[0], 0.0, (int(escapes[0].w + 0.5) & 3) == ESCAPED ? steps : -1.0 - steps);
+    float steps = texel_steps(escapes[0]);
+    coarse0_out = vec4(v[0], 0.0, texel_fate(escapes[0]) == ESCAPED ? steps : -1.0 - steps);
 #if ORDERS > 0
     FETCH_STAR(first, hits1)
     for (int i = 0; i < 5; ++i)

@@ -2,9 +2,8 @@
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
 // do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
 //
-//   0.15  may cross the disk, and may be of the sky     0.25  of the sky, no disk     0.5  neither
-//
-// So disk is below 0.2 and sky below 0.3: one draw each. The few that cross the disk and are not of the sky are black in it.
+// PIXEL_DISK, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
+// than another, one draw each. The few that cross the disk and are not of the sky are black in it.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -19,5 +18,5 @@ void main() {
     for (int n = 0; n < ORDERS; ++n)
         disk = may_be_covered(crossing_of(hits.crossing[n])) || disk;
 #endif
-    gl_FragDepth = disk ? 0.15 : hits.fate == ESCAPED ? 0.25 : 0.5;
+    gl_FragDepth = class_depth(disk ? PIXEL_DISK : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
 }

@@ -8,7 +8,7 @@ import numpy as np
 
 from blackhole_gl import plan
 from blackhole_gl.physics import observer
-from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import Scene
 
 

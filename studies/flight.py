@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import Scene
 from studies.displacement import beside_an_edge, displacement_px
 from studies.flip import flip

@@ -19,7 +19,7 @@ from blackhole_gl.measure.methods import Method
 from blackhole_gl.physics import observer, relativity
 from blackhole_gl.physics.space_time import ray_model, space_time
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, catalogue, presets
 from blackhole_gl.scene.catalogue import PlugIn
 from studies.stability_cases import CASES, CHI, DEGREE, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case, shadow_edge

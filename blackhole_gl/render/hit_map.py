@@ -6,7 +6,7 @@ turns it to the world.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import fields, replace
 from itertools import count
 
 import moderngl
@@ -14,32 +14,14 @@ import numpy as np
 
 from ..physics.observer import cos_sin_deg
 from ..plan import REFINE_STEP, Plan
-from . import refinement
+from . import hit_texels, refinement
+from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .ray_tables import RayTables
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
-
-
-@dataclass(frozen=True)
-class HitArrays:
-    """A hit map on the host; row 0 is the picture's bottom row, as GL stores it.
-
-    Attributes:
-        fate: int (…): 0 unresolved, 1 escaped, 2 captured.
-        steps: int (…).
-        direction: float32 (…, 3): asymptotic unit vectors in the world; zero unless escaped.
-        lambda_: float32 (…): L_z/E in M; zero when no crossings are kept.
-        crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
-    """
-
-    fate: np.ndarray
-    steps: np.ndarray
-    direction: np.ndarray
-    lambda_: np.ndarray
-    crossing: np.ndarray
 
 
 _GENERATIONS = count(1)
@@ -162,13 +144,13 @@ class HitMap:
 
     def trace_listed(self, plan: Plan, directions: np.ndarray) -> HitArrays:
         """Hits of listed local directions (N, 3), in the observer's tetrad wherever the camera looks, instead of pixels."""
-        count = len(directions)
+        number = len(directions)
         # Whole blocks of 4 × 4: software renderers run those whole, and a texel that is not there would be a ray without a direction.
-        width = min(-(-count // 4) * 4, 1024)
-        height = -(-count // (4 * width)) * 4
+        width = min(-(-number // 4) * 4, 1024)
+        height = -(-number // (4 * width)) * 4
         listed = np.zeros((height * width, 4), np.float32)
         listed[:, 0] = -1.0
-        listed[:count, :3] = directions
+        listed[:number, :3] = directions
         texture = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
         self._traced = FrameInputs.whole(plan, 0.0, (width, height))
         rays = self._programs.get("trace.frag", self._traced, {"RAYS_LISTED": 1})
@@ -177,12 +159,16 @@ class HitMap:
         self.tables.bind(rays.program, plan.scene)
         self._key, self.generation = None, next(_GENERATIONS)
         self._make_targets((width, height), plan.orders)
-        self._target.use()
+        momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.MOMENTA)]
+        target = self._ctx.framebuffer([*self.textures, *momenta])
+        target.use()
         rays.draw()
         self._refined_for = None
-        texture.release()
         found = self.read()
-        return HitArrays(*(getattr(found, name).reshape(height * width, *getattr(found, name).shape[2:])[:count] for name in HitArrays.__dataclass_fields__))
+        found = replace(found, momentum=hit_texels.momenta([_texels(kept) for kept in momenta], found.crossing))
+        for made in (target, texture, *momenta):
+            made.release()
+        return HitArrays(*(_flat(getattr(found, item.name), number) for item in fields(HitArrays)))
 
     def emission_shifts(self) -> np.ndarray:
         """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none."""
@@ -199,30 +185,21 @@ class HitMap:
 
     def read(self) -> HitArrays:
         """The map as arrays of shape (height, width, …), as its readers see it."""
-        width, height = self.textures[0].size
-        data = [np.frombuffer(stored, np.float32).reshape(height, width, 4) for stored in (self._stored() if self.is_sharp else self._resolved())]
-        data += [np.zeros((height, width, 4), np.float32)] * (3 - len(data))
-        packed = np.rint(data[0][..., 3]).astype(int)
-        crossing = np.stack([data[1][..., :2], data[2][..., :2], data[2][..., 2:]], axis=-2)
-        return HitArrays(packed & 3, packed >> 2, self._in_world(data[0][..., :3]), data[1][..., 2], self._in_world(crossing))
+        found = hit_texels.unpacked([_texels(texture) for texture in self.textures] if self.is_sharp else self._resolved())
+        return replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
 
     def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Of a sharp map, as int (height, width): a third of what `read` brings to the host, and none of its arithmetic."""
-        width, height = self.textures[0].size
-        packed = np.frombuffer(self.textures[0].read(), np.float32).reshape(height, width, 4)[..., 3].astype(np.int32)
-        return packed & 3, packed >> 2
+        return hit_texels.fates_and_steps(_texels(self.textures[0]))
 
-    def _stored(self) -> list[bytes]:
-        return [texture.read() for texture in self.textures]
-
-    def _resolved(self) -> list[bytes]:
+    def _resolved(self) -> list[np.ndarray]:
         resolve = self._programs.get("refine_resolve.frag", self._traced, self.switches())
         resolve.sample(self.samplers())
         textures = [self._ctx.texture(texture.size, 4, dtype="f4") for texture in self.textures]
         target = self._ctx.framebuffer(textures)
         target.use()
         resolve.draw()
-        found = [texture.read() for texture in textures]
+        found = [_texels(texture) for texture in textures]
         for made in (target, *textures):
             made.release()
         return found
@@ -235,7 +212,7 @@ class HitMap:
 
     def _make_targets(self, size: tuple[int, int], orders: int) -> None:
         """Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""
-        count = 1 + min(orders, 2)
+        count = hit_texels.textures(orders)
         if self._pool and self._pool[0].size != size:
             self._release_targets()
         while len(self._pool) < count:
@@ -258,6 +235,16 @@ class HitMap:
         for kept in (*self._targets.values(), *self._pool):
             kept.release()
         self._targets, self._pool, self._target, self.textures, self._key = {}, [], None, [], None
+
+
+def _texels(texture: moderngl.Texture) -> np.ndarray:
+    """The texels (height, width, 4) of an RGBA32F texture. Waits for the GPU."""
+    return np.frombuffer(texture.read(), np.float32).reshape(texture.height, texture.width, 4)
+
+
+def _flat(values: np.ndarray, number: int) -> np.ndarray:
+    """The first `number` of (height, width, …), row by row."""
+    return values.reshape(-1, *values.shape[2:])[:number]
 
 
 def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:

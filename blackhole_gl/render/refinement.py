@@ -8,15 +8,17 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
+from ..glsl.declared import PixelClass
 from ..plan import REFINE_STEP
+from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
 
-# Between the depth of pixels with rays of their own and all others in shaders/refine_classes.frag.
-_OWN_RAYS = 0.1
+# Between the depth of pixels with rays of their own and all others.
+_OWN_RAYS = PixelClass.OWN_RAY.depth_beyond
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
 _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2"), ("bend2", "f2"))
@@ -47,7 +49,7 @@ class CoarseGrid:
     def trace(self, rays: Draw) -> None:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
         inputs = rays.inputs
-        self._make_targets(inputs.size, 1 + min(inputs.plan.orders, 2))
+        self._make_targets(inputs.size, textures(inputs.plan.orders))
         rays.set(ray_grid=(REFINE_STEP, -REFINE_STEP, -REFINE_STEP))
         self._rays.use()
         rays.draw()

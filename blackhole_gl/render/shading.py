@@ -5,6 +5,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
+from ..glsl.declared import PixelClass
 from ..physics import disk_profile
 from ..plan import Plan
 from ..resources import assets_dir
@@ -13,9 +14,8 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 
-# Below these depths lie the classes of pixels that may cross the disk, and that may be of the sky (shaders/shade_classes.frag); beyond the
-# last those of flat cells (refine_classes.frag).
-_DISK, _SKY, _FLAT_SKY = 0.2, 0.3, 0.6
+# Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
+_DISK, _SKY, _FLAT_SKY = PixelClass.DISK.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from functools import cache
 
 from ..glsl.blocks import Block
+from ..glsl.declared import defines
 from ..physics import observer, orbit_table, shear
 from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import fields
@@ -139,6 +140,7 @@ def scene_values(plan: Plan) -> dict[str, object]:
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": REFINE_STEP}
+    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines()}
     found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key))

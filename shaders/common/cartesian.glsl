@@ -24,10 +24,17 @@ vec2 twisted(vec2 point, float twist) {
     return ray_twist_strength() == 0.0 && ray_drag() == 0.0 ? point : rotate(point, cos_sin(twist));
 }
 
+// At radius r on a leg that is followed outwards towards `onward`; the ray runs along it (sense 1) or against it (−1).
+Momentum leg_momentum(Orbit orbit, float r, vec3 onward, float twist, float sense) {
+    return Momentum(-sense * radial_speed(orbit, 1.0 / r), 2.0 * sense * sqrt(orbit.h2) * vec3(twisted(onward.xy, twist), onward.z));
+}
+
 void add_leg_crossing(Orbit orbit, vec3 n, vec3 across, float u, float u_end, float twist, float sense, inout Hits hits) {
 #if ORDERS > 0
-    vec4 found = leg_crossing(orbit, n, across, u, u_end);
-    if (found.w > 0.0) add_crossing(hits, twisted(found.xy, twist - sense * ray_twist_strength() * found.z));
+    vec3 onward;
+    vec4 found = leg_crossing(orbit, n, across, u, u_end, onward);
+    float turn = twist - sense * ray_twist_strength() * found.z;
+    if (found.w > 0.0) add_crossing(hits, twisted(found.xy, turn), leg_momentum(orbit, length(found.xy), onward, turn, sense));
 #endif
 }
 
@@ -144,6 +151,16 @@ float ray_height_rate(State s) {
 
 float ray_elevation(State s) {
     return s.x.z / ray_radius(s);
+}
+
+vec4 ray_place(State s) {
+    return vec4(twisted(s.x.xy, s.twist), s.x.z, 1.0);
+}
+
+Momentum ray_momentum(Orbit orbit, State s) {
+    Momentum found = momentum_at(s.x, s.v);
+    found.n_rate.xy = twisted(found.n_rate.xy, s.twist);
+    return found;
 }
 
 vec2 ray_plane_point(State s) {

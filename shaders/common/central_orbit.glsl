@@ -36,9 +36,10 @@ vec3 turned(vec3 n, vec3 across, float angle) {
     return turn.x * n + turn.y * across;
 }
 
-// Where the outward leg from (n, u0) to u_end that moves towards `across` meets z = 0, as (point in the plane, ∫ u³ dσ up to it, 1);
-// vec4(0) when it does not. Newton in u, as dφ/du is known.
-vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0, float u_end) {
+// Where the outward leg from (n, u0) to u_end that moves towards `across` meets z = 0, as (point in the plane, ∫ u³ dσ up to it, 1), and the unit
+// vector `onward` that it moves towards there; vec4(0) when it does not. Newton in u, as dφ/du is known.
+vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0, float u_end, out vec3 onward) {
+    onward = vec3(0.0);
     vec2 whole = orbit_leg(orbit, u0, u_end);
     if (n.z * turned(n, across, whole.x).z >= 0.0) return vec4(0.0);
     float u = 0.5 * (u0 + u_end);
@@ -50,5 +51,6 @@ vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0, float u_end) {
         float slope = turned(across, -n, leg.x).z * sqrt(orbit.h2) / radial_speed(orbit, u);
         u = clamp(u + there.z / slope, max(1e-3 * u, u_end), u0);
     }
+    onward = turned(across, -n, leg.x);
     return vec4(normalize(there.xy) / u, leg.y, 1.0);
 }

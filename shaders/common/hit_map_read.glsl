@@ -1,8 +1,9 @@
-// Reads hits from the hit map. The other half is hit_map_write.glsl.
-// The map is in the frame of the camera's meridian, so that it serves a camera at any azimuth; what is fetched is in the world.
+// Fetches hits from the hit map: those of the pixel's own ray, or interpolated between the rays of a coarse grid. What lies where in a texel is for hit_texels.glsl
+// to know. The map is in the plan's frame, as a rule that of the camera's meridian, so that it serves a camera at any azimuth; what is fetched is in the world.
 // HIT_MAP_REFINED: 1, pixels of cells that can be trusted have no ray of their own, and their hits are interpolated (hit_cells.glsl); 2, the
 // same for directions in flat cells and nothing else (refine_classes.frag): linear interpolation does, and no own rays are looked for.
 #include "common/rotation.glsl"
+#include "common/hit_texels.glsl"
 #include "common/hit_cells.glsl"
 #if HIT_MAP_REFINED
 #include "common/escape_chart.glsl"
@@ -30,13 +31,7 @@ uniform sampler2D bend2;
 const vec2 UNSEEN_CROSSING = vec2(1e6, 0.0); // r_s; stands for one that is off the disk: so far out that no pixel beside it shows any
 #endif
 
-// The hits in the texels of the three textures; those of textures that are not there are vec4(0).
-Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
-    int packed_fate = int(t0.w + 0.5);
-    return Hits(packed_fate & 3, t0.xyz, t1.z, packed_fate >> 2, vec2[3](t1.xy, t2.xy, t2.zw));
-}
-
-// Hits turned from the camera's meridian to the world.
+// Hits turned from the plan's frame to the world.
 Hits in_world(Hits hits) {
     hits.direction.xy = rotate(hits.direction.xy, camera_heading);
     for (int n = 0; n < 3; ++n)
@@ -80,8 +75,8 @@ vec2 interpolated(vec2 linear, sampler2D bend, vec2 place, ivec2 pixel) {
 vec4 interpolated_escape(ivec2 pixel) {
     vec2 place = place_in_grid(pixel);
     vec4 node = textureLod(coarse0, place, 0.0);
-    if (node.w < -0.5) return vec4(vec3(0.0), 4.0 * floor(-1.0 - node.w) + float(CAPTURED));
-    return vec4(chart_direction(interpolated(node.xy, bend0, place, pixel)), 4.0 * floor(node.w) + float(ESCAPED));
+    if (node.w < -0.5) return escape_texel(vec3(0.0), CAPTURED, int(-1.0 - node.w));
+    return escape_texel(chart_direction(interpolated(node.xy, bend0, place, pixel)), ESCAPED, int(node.w));
 }
 
 vec2 interpolated_crossing(uint cell, int n, vec2 point) {
@@ -94,7 +89,7 @@ Hits interpolated_hits(uint cell, ivec2 pixel) {
     vec2 place = place_in_grid(pixel);
 #if ORDERS > 0
     vec4 points = textureLod(coarse1, place, 0.0);
-    t1 = vec4(interpolated_crossing(cell, 0, interpolated(points.xy, bend1, place, pixel)), textureLod(coarse0, place, 0.0).z, 0.0);
+    t1 = first_texel(interpolated_crossing(cell, 0, interpolated(points.xy, bend1, place, pixel)), textureLod(coarse0, place, 0.0).z, 0.0);
 #endif
 #if ORDERS > 1
     t2 = vec4(interpolated_crossing(cell, 1, interpolated(points.zw, bend2, place, pixel)), interpolated_crossing(cell, 2, vec2(0.0)));
@@ -104,7 +99,7 @@ Hits interpolated_hits(uint cell, ivec2 pixel) {
 #endif
 
 #if HIT_MAP_REFINED < 2
-// As traced, in the frame of the camera's meridian.
+// As traced, in the plan's frame.
 Hits stored_hits(ivec2 pixel) {
     vec4 t1 = vec4(0.0), t2 = vec4(0.0);
 #if HIT_MAP_REFINED

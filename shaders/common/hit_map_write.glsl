@@ -1,11 +1,19 @@
 // Writes hits into the targets of the trace pass. The other half is hit_map_read.glsl.
+#include "common/hit_texels.glsl"
 
-layout(location = 0) out vec4 hits0_out;  // direction, 4·steps + fate
+layout(location = 0) out vec4 hits0_out;
 #if ORDERS > 0
-layout(location = 1) out vec4 hits1_out;  // crossing 0, λ, drift (for the view of conserved quantities; else 0)
+layout(location = 1) out vec4 hits1_out;
 #endif
 #if ORDERS > 1
-layout(location = 2) out vec4 hits2_out;  // crossings 1 and 2
+layout(location = 2) out vec4 hits2_out;
+#endif
+#if RAYS_LISTED && ORDERS > 1
+layout(location = 3) out vec4 momenta0_out;
+layout(location = 4) out vec4 momenta1_out;
+#elif RAYS_LISTED
+layout(location = 2) out vec4 momenta0_out;
+layout(location = 3) out vec4 momenta1_out;
 #endif
 
 #if POST_VIEW_CONSERVATION
@@ -26,16 +34,35 @@ Hits only_finite(Hits hits) {
     return failed;
 }
 
+#if RAYS_LISTED
+// (k_r, k_θ) in z = 0 at `point`; zero without a crossing.
+vec2 covariant_momentum(vec2 point, Momentum momentum) {
+    if (point == vec2(0.0)) return vec2(0.0);
+#if SPACE_TIME_FLAT
+    float fall = 1.0;
+#else
+    float w = 0.5 * inversesqrt(dot(point, point));
+    float fall = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
+#endif
+    return vec2(momentum.w_rate / fall, momentum.n_rate.z);
+}
+#endif
+
 void store_hits(Hits traced) {
     Hits hits = only_finite(traced);
-    hits0_out = vec4(hits.direction, float(4 * hits.steps + hits.fate));
+    hits0_out = escape_texel(hits.direction, hits.fate, hits.steps);
 #if ORDERS > 0
-    hits1_out = vec4(hits.crossing[0], hits.lambda, 0.0);
+    float drift = 0.0;
 #if POST_VIEW_CONSERVATION
-    hits1_out.w = is_finite(vec3(march_drift)) ? march_drift : 1.0;
+    drift = is_finite(vec3(march_drift)) ? march_drift : 1.0;
 #endif
+    hits1_out = first_texel(hits.crossing[0], hits.lambda, drift);
 #endif
 #if ORDERS > 1
-    hits2_out = vec4(hits.crossing[1], ORDERS > 2 ? hits.crossing[2] : vec2(0.0));
+    hits2_out = others_texel(hits.crossing[1], ORDERS > 2 ? hits.crossing[2] : vec2(0.0));
+#endif
+#if RAYS_LISTED
+    momenta0_out = vec4(covariant_momentum(hits.crossing[0], hits.momentum[0]), covariant_momentum(hits.crossing[1], hits.momentum[1]));
+    momenta1_out = vec4(covariant_momentum(hits.crossing[2], hits.momentum[2]), vec2(0.0));
 #endif
 }

@@ -1,4 +1,20 @@
-// What became of a ray, and how the hit map stores it. Directions stay vectors and crossings stay points: no angle is ever stored.
+// What became of a ray. Directions stay vectors and crossings stay points: no angle is ever stored. How it lies in texels: hit_texels.glsl.
+
+// Momentum of a ray as its model carries it: rates in Mino time (M = 1) along the ray traced backwards, |E| = 1, in the plan's frame.
+// At the place w = M/r with the unit vector n from the hole, the photon that arrives has, covariant in Boyer–Lindquist's coordinates,
+// k_r = w_rate/(Δw²), k_θ = −n_rate·e_θ, k_φ = λE = −sin θ n_rate·e_φ (docs/physics.md).
+struct Momentum {
+    float w_rate;
+    vec3 n_rate;  // at right angles to n
+};
+
+// That of a ray at x in r_s that moves by v = dx/dσ, with the affine parameter σ scaled so that E = 1, where space is flat or Schwarzschild's.
+Momentum momentum_at(vec3 x, vec3 v) {
+    float r = length(x);
+    vec3 n = x / r;
+    float outward = dot(v, n);
+    return Momentum(-outward, 2.0 * r * (v - outward * n));
+}
 
 struct Hits {
     int fate;          // UNRESOLVED, ESCAPED, CAPTURED
@@ -6,15 +22,34 @@ struct Hits {
     float lambda;      // L_z/E in M
     int steps;
     vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of z = 0, nearest along the ray first; zero = none
+#if RAYS_LISTED
+    Momentum momentum[3];  // at the crossings
+#endif
 };
 
 Hits no_hits(float lambda) {
-    return Hits(UNRESOLVED, vec3(0.0), lambda, 0, vec2[3](vec2(0.0), vec2(0.0), vec2(0.0)));
+    Hits hits;
+    hits.fate = UNRESOLVED;
+    hits.direction = vec3(0.0);
+    hits.lambda = lambda;
+    hits.steps = 0;
+    hits.crossing = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+#if RAYS_LISTED
+    Momentum none = Momentum(0.0, vec3(0.0));
+    hits.momentum = Momentum[3](none, none, none);
+#endif
+    return hits;
 }
 
 // Puts a crossing into the first free place; those beyond ORDERS are dropped.
-void add_crossing(inout Hits hits, vec2 point) {
-    if (hits.crossing[0] == vec2(0.0)) hits.crossing[0] = point;
-    else if (hits.crossing[1] == vec2(0.0)) hits.crossing[1] = point;
-    else if (hits.crossing[2] == vec2(0.0)) hits.crossing[2] = point;
+void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
+    int place = hits.crossing[0] == vec2(0.0) ? 0 : hits.crossing[1] == vec2(0.0) ? 1 : hits.crossing[2] == vec2(0.0) ? 2 : 3;
+    if (place == 0) hits.crossing[0] = point;
+    else if (place == 1) hits.crossing[1] = point;
+    else if (place == 2) hits.crossing[2] = point;
+#if RAYS_LISTED
+    if (place == 0) hits.momentum[0] = momentum;
+    else if (place == 1) hits.momentum[1] = momentum;
+    else if (place == 2) hits.momentum[2] = momentum;
+#endif
 }

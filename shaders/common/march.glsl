@@ -12,6 +12,8 @@
 //     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
+//     vec4  ray_place(State)                      (p, q): the place is p/q in r_s, in the plan's frame; q is 0 infinitely far away
+//     Momentum ray_momentum(Orbit, State)         there (common/hits.glsl)
 // and, for those integrators and step controls that ask for them,
 //     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
 //     State state_push(State s, float h2, State k)      places moved by h2 times the rates of their rates
@@ -58,7 +60,7 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
     there = state_drift(there, slip);
 #endif
     vec2 point = ray_plane_point(there);
-    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point);
+    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there));
 }
 #endif
 

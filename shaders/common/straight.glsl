@@ -19,7 +19,7 @@ Hits straight_hits(RayStart start, float radius) {
     float t = -b.z / v.z;
     vec2 point = b.xy + t * v.xy;
     bool crosses = start.n.z != 0.0 && v.z != 0.0 && t > t_start && t < t_end;
-    if (crosses && dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point);
+    if (crosses && dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
 #endif
     return hits;
 }

@@ -131,6 +131,14 @@ float ray_elevation(State s) {
     return s.n.z;
 }
 
+vec4 ray_place(State s) {
+    return vec4(rotate(s.n.xy, cos_sin(s.twist)), s.n.z, 2.0 * s.w * length(s.n));
+}
+
+Momentum ray_momentum(Orbit orbit, State s) {
+    return Momentum(s.w_rate, vec3(rotate(s.n_rate.xy, cos_sin(s.twist)), s.n_rate.z));
+}
+
 vec2 ray_plane_point(State s) {
     return rotate(s.n.xy, cos_sin(s.twist)) * inversesqrt(4.0 * s.w * s.w * dot(s.n.xy, s.n.xy));
 }

@@ -216,8 +216,43 @@ float ray_elevation(State s) {
     return s.n.z;
 }
 
+// (cos φ, sin φ) of Boyer–Lindquist's azimuth at w.
+vec2 ray_heading(State s, float w) {
+    float turn = s.chart * (small_arctan(hole_spin * w) - hole_spin * azimuth_lag(w));
+    return rotate(normalize(s.n.xy), cos_sin(turn));
+}
+
+// (sin θ, cos θ) of Boyer–Lindquist's polar angle: cos θ = z/r, |(x, y)|² = (r² + a²) sin² θ.
+vec2 ray_polar(State s) {
+    float q2 = hole_spin * hole_spin * s.w * s.w;
+    float rho = kerr_rho(q2, s.n.z * s.n.z);
+    return vec2(length(s.n.xy) * inversesqrt(rho * rho + q2), s.n.z / rho);
+}
+
+vec4 ray_place(State s) {
+    float w = kerr_w(s);
+    vec2 polar = ray_polar(s);
+    return vec4(polar.x * ray_heading(s, w), polar.y, 2.0 * w);
+}
+
+// p_θ = cot θ (x p_x + y p_y) − r sin θ p_z with p = p_n n + w L × n; dw/dτ = Σ w² dw/dσ along the march, Σw² = ρ² + q² n_z²/ρ².
+Momentum ray_momentum(Orbit orbit, State s) {
+    float q2 = hole_spin * hole_spin * s.w * s.w, nz2 = s.n.z * s.n.z;
+    float rho = kerr_rho(q2, nz2), w = s.w / rho;
+    vec2 polar = ray_polar(s), heading = ray_heading(s, w);
+    float sine = max(polar.x, 1e-6);
+    float p_theta = s.n.z * sine * hole_spin * hole_spin * s.w * s.p_n / rho - cross(s.l, s.n).z * rho / sine;
+    vec3 e_theta = vec3(polar.y * heading, -polar.x), e_phi = vec3(-heading.y, heading.x, 0.0);
+
+    State rate = ray_rates(s);
+    float q2_rate = 2.0 * q2 * rate.w / max(s.w, 1e-20), gap = 1.0 - q2;
+    float root = sqrt(gap * gap + 4.0 * q2 * nz2);
+    float rho2_rate = 0.5 * (-q2_rate + (2.0 * (q2_rate * nz2 + 2.0 * q2 * s.n.z * rate.n.z) - gap * q2_rate) / root);
+    float w_rate = (rate.w - 0.5 * w * rho2_rate / rho) / rho * (rho * rho + q2 * nz2 / (rho * rho));
+    return Momentum(w_rate, p_theta * e_theta + (s.l.z / sine) * e_phi);
+}
+
 vec2 ray_plane_point(State s) {
     float w = kerr_w(s);
-    float turn = s.chart * (small_arctan(hole_spin * w) - hole_spin * azimuth_lag(w));
-    return rotate(normalize(s.n.xy), cos_sin(turn)) * (0.5 / w);
+    return ray_heading(s, w) * (0.5 / w);
 }

@@ -111,6 +111,16 @@ float ray_elevation(State s) {
     return ray_height(s);
 }
 
+vec4 ray_place(State s) {
+    vec2 turn = cos_sin(s.angle);
+    return vec4(turn.x * s.n + turn.y * s.aside, 2.0 * s.w);
+}
+
+Momentum ray_momentum(Orbit orbit, State s) {
+    vec2 turn = cos_sin(s.angle);
+    return Momentum(s.w_rate, s.b * (turn.x * s.aside - turn.y * s.n));
+}
+
 vec2 ray_plane_point(State s) {
     vec2 turn = cos_sin(s.angle);
     return normalize(turn.x * s.n.xy + turn.y * s.aside.xy) * (0.5 / s.w);

@@ -25,8 +25,13 @@ float swept_angle(float ratio) {
 }
 
 #if ORDERS > 0
-void add_kept(bool there, vec2 radius, vec2 node, inout Hits hits) {
-    if (there && radius.y > 0.0 && radius.y * crossing_r_min < radius.x) add_crossing(hits, (radius.x / radius.y) * node);
+// `radius` as (numerator, denominator); `node` is the unit vector of the crossing in z = 0; `onward` the unit vector that the ray turns to there; `state` (u, du/dφ) as
+// good as the other sums allow: it gives the sign of du/dφ, whose size follows from the orbit's equation.
+void add_kept(bool there, vec2 radius, vec2 node, vec3 onward, vec2 state, float root_kappa, inout Hits hits) {
+    if (!there || radius.y <= 0.0 || radius.y * crossing_r_min >= radius.x) return;
+    float r = radius.x / radius.y, u = 1.0 / r;
+    float w_rate = sqrt(max(1.0 - u * u * (1.0 - u) / (root_kappa * root_kappa), 0.0));
+    add_crossing(hits, r * node, Momentum(state.y < 0.0 ? -w_rate : w_rate, (2.0 / root_kappa) * onward));
 }
 
 // The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets z = 0 first. The first is reached from the camera, the last from the
@@ -50,17 +55,21 @@ void add_crossings(RayStart start, vec3 across, vec2 end, float swept, bool esca
     vec2 quarter_turn = orbit_from_centre(vec2(0.0, 1.0), kappa);
     vec2 camera = vec2(2.0 * start.w, clamp(start.w_rate, -1.0, 1.0) * root_kappa);
     vec2 base = behind ? orbit_state_on(camera, quarter_turn, kappa) : camera;
-    vec2 onward = orbit_from_centre(behind ? vec2(first.y, -first.x) : first, kappa);
+    vec2 further = orbit_from_centre(behind ? vec2(first.y, -first.x) : first, kappa);
+    vec3 heading = first.x * across - first.y * start.n;
     float reach = 0.5 - 0.5 * first.x;
     bool outside = kappa * reach * reach * reach < CENTRE_REACH;
-    add_kept(count > 0 && (outside || escapes), count == 1 && escapes ? last : orbit_on(base, onward, kappa), node, hits);
+    vec2 radius = count == 1 && escapes ? last : orbit_on(base, further, kappa);
+    add_kept(count > 0 && (outside || escapes), radius, node, heading, orbit_state_on(base, further, kappa), root_kappa, hits);
 #if ORDERS > 1
     base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
-    add_kept(count > 1, count == 2 ? last : orbit_on(base, onward, kappa), -node, hits);
+    radius = count == 2 ? last : orbit_on(base, further, kappa);
+    add_kept(count > 1, radius, -node, -heading, orbit_state_on(base, further, kappa), root_kappa, hits);
 #endif
 #if ORDERS > 2
     base = orbit_state_on(orbit_state_on(base, quarter_turn, kappa), quarter_turn, kappa);
-    add_kept(count > 2, count == 3 ? last : orbit_on(base, onward, kappa), node, hits);
+    radius = count == 3 ? last : orbit_on(base, further, kappa);
+    add_kept(count > 2, radius, node, heading, orbit_state_on(base, further, kappa), root_kappa, hits);
 #endif
 }
 #endif

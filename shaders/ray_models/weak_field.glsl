@@ -46,12 +46,12 @@ Hits trace_ray(RayStart start) {
     float least = crossing_r_min * crossing_r_min;
     vec2 point = closest.xy - (closest.z / v.z) * v.xy;
     float t = -closest.z / v.z;
-    if (start.n.z != 0.0 && t > t_start && t < 0.0 && dot(point, point) > least) add_crossing(hits, point);
+    if (start.n.z != 0.0 && t > t_start && t < 0.0 && dot(point, point) > least) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
     vec3 corner = closest + t_kink * v;
     t = -corner.z / leaving.z;
     point = corner.xy + t * leaving.xy;
     bool from_within = start.n.z == 0.0 && cosine <= 0.0;  // a straight line that starts in the plane meets it nowhere else
-    if (hits.fate == ESCAPED && t > 0.0 && !from_within && dot(point, point) > least) add_crossing(hits, point);
+    if (hits.fate == ESCAPED && t > 0.0 && !from_within && dot(point, point) > least) add_crossing(hits, point, momentum_at(vec3(point, 0.0), leaving));
 #endif
     return hits;
 }

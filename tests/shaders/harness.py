@@ -14,6 +14,7 @@ import moderngl
 import numpy as np
 
 from blackhole_gl.glsl.compose import compose
+from blackhole_gl.glsl.declared import defines
 from blackhole_gl.render import star_cells
 from blackhole_gl.resources import assets_dir, shaders_dir
 
@@ -21,6 +22,8 @@ VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID 
 
 SWITCHES = {
     "ORDERS": 1,
+    "RAYS_LISTED": 0,
+    **defines(),
     "DISK_FREQUENCY_SHIFT_S0": 0,
     "DISK_FREQUENCY_SHIFT_S1": 0,
     "DISK_REDSHIFT": 1,

@@ -9,7 +9,7 @@ import pytest
 
 from blackhole_gl.plan import choice
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, presets
 from studies.displacement import beside_an_edge, displacement_px
 

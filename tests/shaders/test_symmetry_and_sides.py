@@ -7,7 +7,7 @@ import pytest
 
 from blackhole_gl.physics import disk_profile, relativity
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitArrays
+from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import shadow_edge
 

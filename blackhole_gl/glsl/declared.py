@@ -1,0 +1,42 @@
+"""Words that Python and GLSL share, from one declaration: shaders get each as a ``#define`` of its number."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Fate(IntEnum):
+    """What became of a ray. Two bits of a texel hold it."""
+
+    UNRESOLVED = 0
+    ESCAPED = 1
+    CAPTURED = 2
+
+
+class PixelClass(IntEnum):
+    """What a pixel needs of the shade pass, as tenths of depth: the depth test then keeps shaders from pixels that do not need them."""
+
+    OWN_RAY = 0
+    """A ray of its own: the trace pass is still to draw it, and it may need anything."""
+    DISK = 1
+    """May cross the disk, and may be of the sky."""
+    SKY = 2
+    """Of the sky, no disk."""
+    NEITHER = 4
+    FLAT_SKY = 7
+    """As SKY, and directions may be interpolated linearly: nothing else is read. With `SKY` it adds up to 9, so that one minus its depth is that of SKY."""
+
+    @property
+    def depth(self) -> float:
+        """What stands in the depth buffer."""
+        return 0.1 * self + 0.05
+
+    @property
+    def depth_beyond(self) -> float:
+        """Between this class and those farther away."""
+        return 0.1 * (self + 1)
+
+
+def defines() -> dict[str, int]:
+    """Name → number of every shared word."""
+    return {**{fate.name: int(fate) for fate in Fate}, **{f"PIXEL_{kind.name}": int(kind) for kind in PixelClass}}

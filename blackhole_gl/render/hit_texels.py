@@ -1,0 +1,64 @@
+"""How hits lie in texels, on the host: the other half of shaders/common/hit_texels.glsl."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+
+Array = np.ndarray
+
+MOST_CROSSINGS = 3
+"""Crossings of the disk's plane that a map can keep."""
+
+MOMENTA = 2
+"""Textures of the crossings' momenta, which listed rays leave after those of `textures`."""
+
+
+def textures(orders: int) -> int:
+    """Textures of a map that keeps `orders` crossings."""
+    return 1 + min(orders, 2)
+
+
+@dataclass(frozen=True)
+class HitArrays:
+    """A hit map on the host; row 0 is the picture's bottom row, as GL stores it.
+
+    Attributes:
+        fate: int (…): a `glsl.declared.Fate`.
+        steps: int (…).
+        direction: float32 (…, 3): asymptotic unit vectors in the world; zero unless escaped.
+        lambda_: float32 (…): L_z/E in M; zero when no crossings are kept.
+        crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
+        momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
+            |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
+    """
+
+    fate: Array
+    steps: Array
+    direction: Array
+    lambda_: Array
+    crossing: Array
+    momentum: Array | None = None
+
+
+def fates_and_steps(texels: Array) -> tuple[Array, Array]:
+    """Both int (…), from the first texture's texels (…, 4)."""
+    packed = texels[..., 3].astype(np.int32)
+    return packed & 3, packed >> 2
+
+
+def unpacked(texels: Sequence[Array]) -> HitArrays:
+    """The hits in the texels (…, 4) of `textures`, and of `MOMENTA` more where there are any, directions and crossings as they lie there."""
+    first, kept = texels[0], list(texels[1:3])
+    kept += [np.zeros_like(first)] * (2 - len(kept))
+    fate, steps = fates_and_steps(first)
+    crossing = np.stack([kept[0][..., :2], kept[1][..., :2], kept[1][..., 2:]], axis=-2)
+    return HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing)
+
+
+def momenta(texels: Sequence[Array], crossing: Array) -> Array:
+    """`HitArrays.momentum` (…, 3, 2) from the texels (…, 4) of `MOMENTA` textures and the crossings (…, 3, 2)."""
+    found = np.stack([texels[0][..., :2], texels[0][..., 2:], texels[1][..., :2]], axis=-2)
+    return np.where(np.any(crossing != 0.0, axis=-1, keepdims=True), found, np.float32(np.nan))

@@ -1,0 +1,36 @@
+// How hits lie in texels: the one place that knows. On the host, blackhole_gl/render/hit_texels.py.
+//
+//   hits0   direction, 4·steps + fate
+//   hits1   crossing 0, λ, drift (for the view of conserved quantities; else 0)     with ORDERS > 0
+//   hits2   crossings 1 and 2                                                       with ORDERS > 1
+//   momenta0, momenta1   (k_r, k_θ) at crossings 0 and 1, and at crossing 2         of listed rays alone
+
+vec4 escape_texel(vec3 direction, int fate, int steps) {
+    return vec4(direction, float(4 * steps + fate));
+}
+
+vec4 first_texel(vec2 crossing, float lambda, float drift) {
+    return vec4(crossing, lambda, drift);
+}
+
+vec4 others_texel(vec2 second, vec2 third) {
+    return vec4(second, third);
+}
+
+int texel_fate(vec4 t0) {
+    return int(t0.w + 0.5) & 3;
+}
+
+float texel_steps(vec4 t0) {
+    return floor(0.25 * t0.w);
+}
+
+// The hits in the texels of the three textures; those of textures that are not there are vec4(0).
+Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
+    Hits hits = no_hits(t1.z);
+    hits.fate = texel_fate(t0);
+    hits.direction = t0.xyz;
+    hits.steps = int(t0.w + 0.5) >> 2;
+    hits.crossing = vec2[3](t1.xy, t2.xy, t2.zw);
+    return hits;
+}
