@@ -56,12 +56,12 @@ def ray_model(scene: Scene) -> catalogue.PlugIn:
 
 def effective_spin(scene: Scene) -> float:
     """a* that the scene's matter feels: 0 for a model without spin."""
-    return scene.hole.spin if ray_model(scene).traits["spins"] else 0.0
+    return scene.hole.spin if ray_model(scene).traits.spins else 0.0
 
 
 def horizon_spin(scene: Scene) -> float:
     """a* that the horizon of the marched space-time has: `kerr_like` drags, but its orbits are Schwarzschild's."""
-    return 0.0 if ray_model(scene).traits["space_time"] == "schwarzschild" else effective_spin(scene)
+    return 0.0 if ray_model(scene).traits.space_time == "schwarzschild" else effective_spin(scene)
 
 
 def cos_sin_deg(degrees: float) -> tuple[float, float]:
@@ -77,7 +77,7 @@ def observe(scene: Scene) -> Observer:
     Raises:
         ValueError: the camera is not outside the horizon; the text says by how much.
     """
-    space_time = ray_model(scene).traits["space_time"]
+    space_time = ray_model(scene).traits.space_time
     camera = scene.camera
     spin = scene.hole.spin if space_time == "kerr" else 0.0
     cos_theta, sin_theta = cos_sin_deg(camera.inclination_deg)

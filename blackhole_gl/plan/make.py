@@ -57,15 +57,15 @@ class RayPlan:
         """Right-hand-side evaluations in one step, tried ones included; 0 for closed models."""
         if self.integrator is None:
             return 0
-        evaluations = "pair_evaluations" if self.step_control.traits.get("needs_pair") else "evaluations"
-        return self.integrator.traits[evaluations] * self.step_control.traits.get("integrator_steps", 1)
+        scheme, control = self.integrator.traits, self.step_control.traits
+        return (scheme.pair_evaluations if control.needs_pair else scheme.evaluations) * control.integrator_steps
 
     @property
     def method(self) -> str:
         """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
         if self.integrator is None:
             return self.model.key
-        step = f"κ = {self.step_angle:.3g}" if self.model.traits["marches_in"] == "mino" else f"Δt₀ = {self.step_length:.3g}"
+        step = f"κ = {self.step_angle:.3g}" if self.model.traits.marches_in == "mino" else f"Δt₀ = {self.step_length:.3g}"
         control = "" if self.step_control.key == "mino" else f"{self.step_control.key}, "
         return f"{self.model.key}, {self.integrator.key}, {control}{step}"
 
@@ -92,13 +92,13 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> RayPlan:
         reasons.append("no crossings are looked for: the disk is off")
     elif orders < scene.rays.orders and not keep_crossings:
         reasons.append(f"{orders} of {scene.rays.orders} orders: the next ring is too thin to change a picture {choice.PICTURE_HEIGHT} pixels high by 1/255")
-    if model.traits["kind"] == "closed":
+    if model.traits.kind == "closed":
         refine, why = _refines(scene, model, made)
         return RayPlan(model, None, None, scene.rays.step_length, scene.rays.step_angle, 1, orders, refine_px(scene) if refine else 0.0, (*reasons, why))
     control = scene.rays.step_control
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
-        control = model.traits["step_control"]
+        control = model.traits.step_control
         scene = scene.with_values({"rays.step_control": control})
         reasons.append(f"steps by {control}: {'; '.join(against)}")
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
@@ -158,7 +158,7 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, st
     The method stays that of the picture at rest, though a coarser one might do for the camera's way: another method would be another
     program to wait for and a jump when the camera stops.
     """
-    if model.traits["kind"] == "closed" and (model.traits["space_time"] == "flat" or not model.traits["exact"]):
+    if model.traits.kind == "closed" and (model.traits.space_time == "flat" or not model.traits.exact):
         return False, "moving: a ray for every pixel, as it costs no more than interpolating"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
@@ -191,7 +191,7 @@ def _visible_orders(scene: Scene) -> int:
 
 def march_bound(scene: Scene) -> float:
     """Radius in r_s beyond which outward rays are finished in closed form."""
-    return observer.ray_model(scene).traits.get("march_bound", MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
+    return (observer.ray_model(scene).traits.march_bound or MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
 
 
 def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
@@ -199,10 +199,10 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
 
     Adaptive controls find their own lengths: 0.
     """
-    if control.traits.get("adapts"):
+    if control.traits.adapts:
         return 0.0
-    shortest = control.traits.get("shortest", 1.0)
-    if model.traits["marches_in"] == "mino":
+    shortest = control.traits.shortest
+    if model.traits.marches_in == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
     bound = march_bound(scene)
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
