@@ -122,7 +122,7 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
     given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
     parameters = {name: scene.get(key) for name, key in _TWIN_PARAMETERS.get(scene.rays.model, {}).items()}
     found = reference.trace(
-        model.traits.get("twin", model.key),
+        model.traits.twin or model.key,
         spin=space_time(scene).spin,
         distance=camera.distance,
         inclination_deg=camera.inclination_deg,

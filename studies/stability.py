@@ -7,7 +7,7 @@ flat space is judged by flat space. Shadows and fates are judged by closed forms
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -22,6 +22,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, catalogue, presets
 from blackhole_gl.scene.catalogue import PlugIn
+from blackhole_gl.scene.traits import RayModelTraits
 from studies.stability_cases import CASES, CHI, DEGREE, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case, shadow_edge
 
 FINE, DEGRADED, FAILS, NOT_APPLICABLE = "fine", "degraded", "fails", "does not apply"
@@ -55,9 +56,9 @@ def methods() -> list[Method]:
     """Every combination that the catalogue lets through: models in its order, each model's default method first."""
     found: list[Method] = []
     for model in catalogue.plug_ins("ray_model").values():
-        if not model.traits.get("charted", True):
+        if not model.traits.charted:
             continue
-        if model.traits["kind"] == "closed":
+        if model.traits.kind == "closed":
             found += [Method(model.key), *_variants(model)]
             continue
         pairs = ((i, c) for i in catalogue.keys("integrator") for c in catalogue.keys("step_control"))
@@ -79,10 +80,10 @@ def is_default(method: Method) -> bool:
     """Whether this is its model's first method: the catalogue's first integrator and the model's own step control."""
     if not method.integrator:
         return not method.changes
-    return (method.integrator, method.step_control) == (catalogue.keys("integrator")[0], traits(method)["step_control"])
+    return (method.integrator, method.step_control) == (catalogue.keys("integrator")[0], traits(method).step_control)
 
 
-def traits(method: Method) -> Mapping[str, Any]:
+def traits(method: Method) -> RayModelTraits:
     """The traits of its ray model."""
     return catalogue.plug_ins("ray_model")[method.model].traits
 
@@ -96,11 +97,11 @@ def chosen(method: Method) -> dict[str, Any]:
 def run(renderer: Renderer, case: Case, method: Method, rays: int = 20_000) -> Outcome:
     """The outcome of one cell; `rays` is the size of a sweep."""
     facts = traits(method)
-    if case.needs == "steps" and facts["kind"] == "closed":
+    if case.needs == "steps" and facts.kind == "closed":
         return Outcome(NOT_APPLICABLE, "takes no steps")
-    if case.key == "sweep-art" and facts["marches_in"] != "cartesian":
+    if case.key == "sweep-art" and facts.marches_in != "cartesian":
         return Outcome(NOT_APPLICABLE, "knows no artistic gravity")
-    if case.needs == "spin" and not facts["spins"]:
+    if case.needs == "spin" and not facts.spins:
         return Outcome(NOT_APPLICABLE, "knows no spin")
     if case.measure == "sweep":
         return sweep(renderer, method, rays, artistic=bool(case.values))
@@ -225,7 +226,7 @@ OTHER_SWEEP_RAYS = 16_000
 def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False, seed: int = 9) -> Outcome:
     """`rays` random rays in random scenes: all finite, all with a fate; and for exact models the right one, by the closed form of the fate."""
     total = unresolved = bad = wrong = 0
-    judged = traits(method)["exact"] and traits(method)["space_time"] != "flat" and not artistic
+    judged = traits(method).exact and traits(method).space_time != "flat" and not artistic
     for scene, directions in random_scenes(method, rays, artistic, seed):
         hits, _, _ = renderer.trace_listed(scene, directions)
         total += len(directions)
@@ -254,9 +255,9 @@ def random_scenes(method: Method, rays: int, artistic: bool, seed: int) -> Itera
     base = presets.load(["reference"], chosen(method))
     per_scene = max(1, min(2000, rays // 64))
     for _ in range(-(-rays // per_scene)):
-        spin = float(rng.choice([0.0, 0.9999, -0.9999, *rng.uniform(-0.9999, 0.9999, 5)])) if traits(method)["spins"] else 0.0
+        spin = float(rng.choice([0.0, 0.9999, -0.9999, *rng.uniform(-0.9999, 0.9999, 5)])) if traits(method).spins else 0.0
         inclination = float(rng.choice([0.0, 90.0, 180.0, 89.99, *np.degrees(np.arccos(rng.uniform(-1.0, 1.0, 12)))]))
-        innermost = float(relativity.horizon_radius(spin)) if traits(method)["space_time"] == "kerr" else 1.0
+        innermost = float(relativity.horizon_radius(spin)) if traits(method).space_time == "kerr" else 1.0
         distance = min(1e4, innermost * (1.0 + 10.0 ** rng.uniform(-3.0, 4.0)))
         values = {"hole.spin": spin, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.observer": str(rng.choice(["static", "zamo"]))}
         if artistic:

@@ -34,22 +34,22 @@ def explanation(case: Case, method: Method) -> str:
     """The letter of `EXPLANATIONS` for a cell that is not fine; empty when there is none."""
     facts = traits(method)
     # Without spin `kerr_like` is Schwarzschild: what fails there is its method.
-    is_approximate = not facts["exact"] and (facts["kind"] == "closed" or facts["space_time"] == "flat" or case.needs == "spin")
+    is_approximate = not facts.exact and (facts.kind == "closed" or facts.space_time == "flat" or case.needs == "spin")
     if is_approximate:
         return "m"
     if case.entry == "9.4":
         return "c"
     if not method.integrator:
         return ""
-    if catalogue.plug_ins("integrator")[method.integrator].traits["order"] <= 3:
+    if catalogue.plug_ins("integrator")[method.integrator].traits.order <= 3:
         return "o"
     if method.step_control == "fixed":
         return "f"
     if method.model == "kerr_schild" and case.key in ("spin-limit", "spin-limit-reversed", "sweep"):
         return "h"
-    if case.entry == "9.6" and facts["marches_in"] == "cartesian":
+    if case.entry == "9.6" and facts.marches_in == "cartesian":
         return "r"
-    return "t" if catalogue.plug_ins("step_control")[method.step_control].traits.get("adapts") else ""
+    return "t" if catalogue.plug_ins("step_control")[method.step_control].traits.adapts else ""
 
 
 def dumps(verdicts: Verdicts) -> str:

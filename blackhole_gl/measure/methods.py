@@ -60,9 +60,9 @@ class Method:
         """What its step setting is: ``angle`` (κ), ``length`` (Δt₀), ``tolerance``, or ``none``."""
         if not self.integrator:
             return "none"
-        if catalogue.plug_ins("step_control")[self.step_control].traits.get("adapts"):
+        if catalogue.plug_ins("step_control")[self.step_control].traits.adapts:
             return "tolerance"
-        return "angle" if catalogue.plug_ins("ray_model")[self.model].traits["marches_in"] == "mino" else "length"
+        return "angle" if catalogue.plug_ins("ray_model")[self.model].traits.marches_in == "mino" else "length"
 
     @property
     def knob_key(self) -> str:
@@ -103,7 +103,7 @@ def sensible(scene: Scene, whole: bool = True) -> list[Method]:
     """
     found: dict[Method, None] = {}
     for model in catalogue.plug_ins("ray_model").values():
-        if model.traits.get("charted", True):
+        if model.traits.charted:
             found |= dict.fromkeys(_methods_of(model, scene, whole))
     return list(found)
 
@@ -116,20 +116,24 @@ def refined(scene: Scene, quick: bool = False) -> list[Method]:
     is told to: one integrator will do.
     """
     spins = scene.hole.spin != 0.0
-    wanted = {"marches_in": "mino", "second_order": True, "spins": spins}
-    models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and wanted.items() <= model.traits.items()]
+    models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and _is_separated(model) and model.traits.spins == spins]
     integrators = _BEST if spins and not quick else ("rk4",)
-    marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits["step_control"]])]
-    closed = [Method(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits["kind"] == "closed"]
+    marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits.step_control])]
+    closed = [Method(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits.kind == "closed"]
     return [replace(method, refined=True) for method in marched + closed]
 
 
+def _is_separated(model: PlugIn) -> bool:
+    """Whether `model` is marched in Mino time by equations in which places alone act."""
+    return model.traits.marches_in == "mino" and model.traits.second_order
+
+
 def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Method]:
-    if model.traits["kind"] == "closed":
+    if model.traits.kind == "closed":
         yield Method(model.key)
         yield from (Method(model.key, changes=((key, not item.default),)) for key, item in model.parameters.items() if item.kind == "switch")
         return
-    own = model.traits["step_control"]
+    own = model.traits.step_control
     if not exact_for(model, scene):
         yield from _fitting(model.key, ["rk4"], [own])
     elif not whole:
@@ -143,12 +147,12 @@ def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Method]:
 
 
 def _pair_controls() -> list[str]:
-    return [key for key, control in catalogue.plug_ins("step_control").items() if control.traits.get("needs_pair")]
+    return [key for key, control in catalogue.plug_ins("step_control").items() if control.traits.needs_pair]
 
 
 def exact_for(model: PlugIn, scene: Scene) -> bool:
     """Whether `model` solves the very space-time of `scene`."""
-    return bool(model.traits["exact"]) and model.traits["space_time"] != "flat" and (model.traits["spins"] or scene.hole.spin == 0.0)
+    return model.traits.exact and model.traits.space_time != "flat" and (model.traits.spins or scene.hole.spin == 0.0)
 
 
 def _fitting(model: str, integrators: Iterable[str], controls: Iterable[str]) -> Iterator[Method]:

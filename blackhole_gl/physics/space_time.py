@@ -86,7 +86,7 @@ def ray_model(scene: Scene) -> catalogue.PlugIn:
 def space_time(scene: Scene) -> SpaceTime:
     """The space-time of `scene`'s ray model."""
     traits = ray_model(scene).traits
-    return _space_time(traits["space_time"], traits["spins"], scene.hole.spin)
+    return _space_time(traits.space_time, traits.spins, scene.hole.spin)
 
 
 @lru_cache(maxsize=256)

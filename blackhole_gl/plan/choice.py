@@ -179,9 +179,9 @@ def is_open(scene: Scene) -> bool:
     if scene.rays.model == AUTO:
         return True
     traits = ray_model(scene).traits
-    if traits["kind"] == "closed":
+    if traits.kind == "closed":
         return False
-    step = scene.rays.step_angle if traits["marches_in"] == "mino" else scene.rays.step_length
+    step = scene.rays.step_angle if traits.marches_in == "mino" else scene.rays.step_length
     return AUTO in (scene.rays.integrator, scene.rays.step_control) or step == 0.0
 
 
@@ -240,11 +240,11 @@ def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> flo
 def _stated_method(scene: Scene) -> Method:
     """The method of `scene`, which leaves nothing open, as the table names it."""
     rays, model = scene.rays, ray_model(scene)
-    if model.traits["kind"] == "closed":
+    if model.traits.kind == "closed":
         return Method(model.key, "", "", 0.0, 0.0, 0.0)
-    if catalogue.plug_ins("step_control")[rays.step_control].traits.get("adapts"):
+    if catalogue.plug_ins("step_control")[rays.step_control].traits.adapts:
         return Method(model.key, rays.integrator, rays.step_control, 0.0, 0.0, scene.get(f"rays.{rays.step_control}.tolerance"))
-    angular = model.traits["marches_in"] == "mino"
+    angular = model.traits.marches_in == "mino"
     return Method(model.key, rays.integrator, rays.step_control, 0.0 if angular else rays.step_length, rays.step_angle if angular else 0.0, 0.0)
 
 
@@ -320,7 +320,7 @@ def _plainly(scene: Scene) -> Scene:
     values = {
         "rays.model": model.key,
         "rays.integrator": "rk4" if scene.rays.integrator == AUTO else scene.rays.integrator,
-        "rays.step_control": model.traits.get("step_control", "radius") if scene.rays.step_control == AUTO else scene.rays.step_control,
+        "rays.step_control": (model.traits.step_control or "radius") if scene.rays.step_control == AUTO else scene.rays.step_control,
         "rays.step_length": scene.rays.step_length or _PLAIN_LENGTH,
         "rays.step_angle": scene.rays.step_angle or _PLAIN_ANGLE,
     }
@@ -342,9 +342,9 @@ def _stated(scene: Scene, best: Prediction) -> Scene:
 
 def _fits(rays: Rays, spins: bool, row: Measured) -> bool:
     model = catalogue.plug_ins("ray_model")[row.model]
-    if rays.model == AUTO and (spins and not model.traits["spins"] or model.traits["space_time"] == "flat"):
+    if rays.model == AUTO and (spins and not model.traits.spins or model.traits.space_time == "flat"):
         return False
-    angular = model.traits.get("marches_in") == "mino"
+    angular = model.traits.marches_in == "mino"
     step, stated_step = (row.step_angle, rays.step_angle) if angular else (row.step_length, rays.step_length)
     return (
         rays.model in (AUTO, row.model)

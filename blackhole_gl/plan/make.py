@@ -40,7 +40,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     reasons += _why_orders(scene, orders, keep_crossings)
     integrator = control = None
     stretch, max_steps = 1.0, 1
-    if model.traits["kind"] != "closed":
+    if model.traits.kind != "closed":
         scene, why = _fitting(scene, model)
         reasons += why
         integrator, control = catalogue.plug_ins("integrator")[scene.rays.integrator], catalogue.plug_ins("step_control")[scene.rays.step_control]
@@ -85,7 +85,7 @@ def _fitting(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:
     against = catalogue.reasons_against(model.key, scene.rays.integrator, scene.rays.step_control)
     if not against:
         return scene, []
-    control = model.traits["step_control"]
+    control = model.traits.step_control
     why = f"steps by {control}: {'; '.join(against)}"
     against = catalogue.reasons_against(model.key, scene.rays.integrator, control)
     if against:
@@ -137,7 +137,7 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, st
     The method stays that of the picture at rest, though a coarser one might do for the camera's way: another method would be another
     program to wait for and a jump when the camera stops.
     """
-    if model.traits["kind"] == "closed" and (model.traits["space_time"] == "flat" or not model.traits["exact"]):
+    if model.traits.kind == "closed" and (model.traits.space_time == "flat" or not model.traits.exact):
         return False, "moving: a ray for every pixel, as it costs no more than interpolating"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
@@ -170,7 +170,7 @@ def _visible_orders(scene: Scene) -> int:
 
 def _march_bound(scene: Scene, model: PlugIn) -> float:
     """Radius in r_s beyond which outward rays are finished in closed form."""
-    return model.traits.get("march_bound", MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
+    return (model.traits.march_bound or MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
 
 
 def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
@@ -178,10 +178,10 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
 
     Adaptive controls find their own lengths: 0.
     """
-    if control.traits.get("adapts"):
+    if control.traits.adapts:
         return 0.0
-    shortest = control.traits.get("shortest", 1.0)
-    if model.traits["marches_in"] == "mino":
+    shortest = control.traits.shortest
+    if model.traits.marches_in == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
     bound = _march_bound(scene, model)
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound

@@ -8,6 +8,7 @@ from typing import Literal
 from ..physics.space_time import SpaceTime
 from ..scene import Scene
 from ..scene.catalogue import PlugIn
+from ..scene.traits import IntegratorTraits, RayModelTraits, StepControlTraits
 
 REFINE_STEP = 4
 """Pixels between the exact rays of a refined hit map's coarse grid."""
@@ -42,9 +43,9 @@ class Plan:
 
     scene: Scene
     space_time: SpaceTime
-    model: PlugIn
-    integrator: PlugIn | None
-    step_control: PlugIn | None
+    model: PlugIn[RayModelTraits]
+    integrator: PlugIn[IntegratorTraits] | None
+    step_control: PlugIn[StepControlTraits] | None
     step_length: float
     step_angle: float
     max_steps: int
@@ -71,14 +72,14 @@ class Plan:
         """Right-hand-side evaluations in one step, tried ones included; 0 for closed models."""
         if self.integrator is None or self.step_control is None:
             return 0
-        evaluations = "pair_evaluations" if self.step_control.traits.get("needs_pair") else "evaluations"
-        return self.integrator.traits[evaluations] * self.step_control.traits.get("integrator_steps", 1)
+        scheme, control = self.integrator.traits, self.step_control.traits
+        return (scheme.pair_evaluations if control.needs_pair else scheme.evaluations) * control.integrator_steps
 
     @property
     def method(self) -> str:
         """The method in a few words, e.g. ``kerr, rk4, κ = 0.2``."""
         if self.integrator is None or self.step_control is None:
             return self.model.key
-        step = f"κ = {self.step_angle:.3g}" if self.model.traits["marches_in"] == "mino" else f"Δt₀ = {self.step_length:.3g}"
+        step = f"κ = {self.step_angle:.3g}" if self.model.traits.marches_in == "mino" else f"Δt₀ = {self.step_length:.3g}"
         control = "" if self.step_control.key == "mino" else f"{self.step_control.key}, "
         return f"{self.model.key}, {self.integrator.key}, {control}{step}"

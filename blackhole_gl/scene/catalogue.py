@@ -5,32 +5,58 @@ A plug-in is one file under ``shaders/``; its header is TOML inside ``/*--- … 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, Literal, TypeVar, overload
 
 from ..resources import shaders_dir
-from .schema import Field
-
-SLOTS: Mapping[str, tuple[str, str]] = {
-    # slot: (folder under shaders/, section of the scene its parameters belong to)
-    "ray_model": ("ray_models", "rays"),
-    "integrator": ("integrators", "rays"),
-    "step_control": ("step_controls", "rays"),
-    "disk_layer": ("disks", "disk"),
-    "sky": ("skies", "sky"),
-}
-
-
-class CatalogueError(ValueError):
-    """A plug-in's header is missing or wrong; the text names the file and the key."""
+from . import headers
+from .headers import CatalogueError
+from .schema import Field, nearest
+from .traits import IntegratorTraits, NoTraits, RayModelTraits, StepControlTraits, Traits
 
 
 @dataclass(frozen=True)
-class PlugIn:
+class Slot:
+    """A place that plug-ins fit.
+
+    Attributes:
+        folder: under ``shaders/``.
+        section: of the scene, which their parameters belong to.
+        traits: the class of what their headers say beside parameters.
+    """
+
+    folder: str
+    section: str
+    traits: type[Traits] = NoTraits
+
+
+SLOTS: Mapping[str, Slot] = {
+    "ray_model": Slot("ray_models", "rays", RayModelTraits),
+    "integrator": Slot("integrators", "rays", IntegratorTraits),
+    "step_control": Slot("step_controls", "rays", StepControlTraits),
+    "disk_layer": Slot("disks", "disk"),
+    "sky": Slot("skies", "sky"),
+}
+
+T = TypeVar("T", bound=Traits)
+
+
+@dataclass(frozen=True)
+class _About:
+    """The entries that every header has."""
+
+    label: str
+    summary: str
+    source: str
+    slot: str
+    rank: float = 100.0
+
+
+@dataclass(frozen=True)
+class PlugIn(Generic[T]):
     """One GLSL plug-in.
 
     Attributes:
@@ -38,8 +64,9 @@ class PlugIn:
         slot: the place it fits, a key of `SLOTS`.
         path: path below ``shaders/``, with forward slashes.
         label, summary, source: what people read.
+        rank: its place in lists, smallest first.
+        traits: what else its header says, a record of its slot.
         parameters: its scene fields, by dotted key.
-        traits: every other entry of the header (``kind``, ``space_time``, ``evaluations``, ``fits``, …).
     """
 
     key: str
@@ -48,20 +75,32 @@ class PlugIn:
     label: str
     summary: str
     source: str
+    rank: float
+    traits: T
     parameters: Mapping[str, Field] = field(default_factory=dict)
-    traits: Mapping[str, Any] = field(default_factory=dict)
 
 
-@cache
-def plug_ins(slot: str) -> Mapping[str, PlugIn]:
+@overload
+def plug_ins(slot: Literal["ray_model"]) -> Mapping[str, PlugIn[RayModelTraits]]: ...
+@overload
+def plug_ins(slot: Literal["integrator"]) -> Mapping[str, PlugIn[IntegratorTraits]]: ...
+@overload
+def plug_ins(slot: Literal["step_control"]) -> Mapping[str, PlugIn[StepControlTraits]]: ...
+@overload
+def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]: ...
+def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]:
     """All plug-ins of `slot` by key, in the headers' ``rank`` (then name) order.
 
     Raises:
-        CatalogueError: a header cannot be read.
+        CatalogueError: a header cannot be read, or says what it may not.
     """
-    folder, section = SLOTS[slot]
-    found = [_read(path, slot, section) for path in sorted((shaders_dir() / folder).glob("*.glsl"))]
-    found.sort(key=lambda plug_in: (plug_in.traits.get("rank", 100), plug_in.key))
+    return _plug_ins(slot)
+
+
+@cache
+def _plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]:
+    found = [_read(path, slot) for path in sorted((shaders_dir() / SLOTS[slot].folder).glob("*.glsl"))]
+    found.sort(key=lambda plug_in: (plug_in.rank, plug_in.key))
     return {plug_in.key: plug_in for plug_in in found}
 
 
@@ -78,50 +117,42 @@ def parameter_fields() -> dict[str, Field]:
 def reasons_against(model: str, integrator: str, step_control: str) -> list[str]:
     """Why the three cannot be combined, a sentence each; empty when they fit."""
     ray_model = plug_ins("ray_model")[model]
-    if ray_model.traits["kind"] == "closed":
+    marches_in = ray_model.traits.marches_in
+    if marches_in is None:
         return []
-    scheme, control = plug_ins("integrator")[integrator], plug_ins("step_control")[step_control]
+    scheme, control = plug_ins("integrator")[integrator].traits, plug_ins("step_control")[step_control].traits
     reasons = []
-    marches_in = ray_model.traits["marches_in"]
-    if marches_in not in control.traits.get("fits", (marches_in,)):
-        reasons.append(f"{step_control} fits models that march in {' or '.join(control.traits['fits'])}; {model} marches in {marches_in}")
-    if scheme.traits.get("second_order") and not ray_model.traits.get("second_order"):
+    for key, fits in ((integrator, scheme.fits), (step_control, control.fits)):
+        if marches_in not in fits:
+            reasons.append(f"{key} fits models that march in {' or '.join(fits)}; {model} marches in {marches_in}")
+    if scheme.second_order and not ray_model.traits.second_order:
         reasons.append(f"{integrator} needs forces that depend on places alone; those of {model} depend on rates too")
-    if control.traits.get("needs_pair") and "pair_evaluations" not in scheme.traits:
+    if control.needs_pair and scheme.pair_evaluations is None:
         reasons.append(f"{step_control} needs an integrator with an error estimate of its own; {integrator} has none")
     return reasons
 
 
-def read_header(text: str, name: str) -> dict[str, Any]:
-    """The TOML header of a plug-in's `text`; `name` is used in errors.
-
-    Raises:
-        CatalogueError: no header, or not TOML.
-    """
-    start, end = text.find("/*---"), text.find("---*/")
-    if start < 0 or end < start:
-        raise CatalogueError(f"{name}: no header; a plug-in begins with /*--- TOML ---*/")
-    if "*/" in text[start : end + 3]:
-        raise CatalogueError(f"{name}: the header holds */, which ends the GLSL comment it lives in")
-    try:
-        return tomllib.loads(text[start + 5 : end])
-    except tomllib.TOMLDecodeError as error:
-        raise CatalogueError(f"{name}: the header is not TOML: {error}") from None
-
-
-def _read(path: Path, slot: str, section: str) -> PlugIn:
-    header = read_header(path.read_text(encoding="utf-8"), path.name)
-    try:
-        stated = header.pop("slot")
-        label, summary, source = header.pop("label"), header.pop("summary"), header.pop("source")
-    except KeyError as missing:
-        raise CatalogueError(f"{path.name}: the header lacks {missing}") from None
-    if stated != slot:
-        raise CatalogueError(f"{path.name}: slot is {stated!r}, but its folder holds {slot!r}")
-    declared = header.pop("parameters", {})
-    parameters = [_parameter(f"{section}.{path.stem}.{name}", entry, path.name) for name, entry in declared.items()]
+def _read(path: Path, slot: str) -> PlugIn[Any]:
+    header = headers.read_header(path.read_text(encoding="utf-8"), path.name)
+    place, kind = SLOTS[slot], SLOTS[slot].traits
+    of_all, of_slot = headers.entry_names(_About), headers.entry_names(kind)
+    headers.refuse_unknown(header, (*of_all, *of_slot, "parameters"), path.name)
+    about = headers.record(_About, {name: entry for name, entry in header.items() if name in of_all}, path.name)
+    if about.slot != slot:
+        raise CatalogueError(f"{path.name}: slot is {about.slot!r}, but its folder holds {slot!r}")
+    traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, path.name)
+    if isinstance(traits, RayModelTraits):
+        _refuse_unknown_control(traits, path.name)
+    declared = headers.table(header.get("parameters", {}), f"{path.name}: parameters")
+    parameters = [_parameter(f"{place.section}.{path.stem}.{name}", entry, path.name) for name, entry in declared.items()]
     relative = path.relative_to(shaders_dir()).as_posix()
-    return PlugIn(path.stem, slot, relative, label, summary, source, {p.key: p for p in parameters}, header)
+    return PlugIn(path.stem, slot, relative, about.label, about.summary, about.source, about.rank, traits, {p.key: p for p in parameters})
+
+
+def _refuse_unknown_control(traits: RayModelTraits, file: str) -> None:
+    known = keys("step_control")
+    if traits.step_control is not None and traits.step_control not in known:
+        raise CatalogueError(f"{file}: step_control: got {traits.step_control!r}; allowed is one of {', '.join(known)}{nearest(traits.step_control, known)}")
 
 
 def _parameter(key: str, entry: Mapping[str, Any], file: str) -> Field:

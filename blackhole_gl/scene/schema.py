@@ -94,10 +94,7 @@ class Field:
         return self.low <= value <= self.high
 
     def _nearest(self, value: Any) -> str:
-        if self.kind != "choice" or not isinstance(value, str):
-            return ""
-        near = difflib.get_close_matches(value, self.options, n=1)
-        return f"; did you mean {near[0]}?" if near else ""
+        return nearest(value, self.options) if isinstance(value, str) else ""
 
     def parse(self, text: str) -> Value:
         """The value that `text` (from a command line) says.
@@ -119,6 +116,12 @@ class Field:
 
 
 _WORDS = {"true": True, "on": True, "yes": True, "1": True, "false": False, "off": False, "no": False, "0": False}
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """What to add to an error: the known word most like `word`; empty when none is alike."""
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def nearest_key(key: str, known: Iterable[str]) -> str | None:

@@ -108,13 +108,13 @@ def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPat
 def combinations(model: str) -> Iterator[tuple[str, str]]:
     """Integrators and step controls to try with `model`: all that fit one model of each way to march, and for the others each part once."""
     ray_model = catalogue.plug_ins("ray_model")[model]
-    if ray_model.traits["kind"] == "closed":
+    if ray_model.traits.kind == "closed":
         yield "rk4", "radius"
         return
     whole = model in ("schwarzschild", "kerr")
     for integrator in catalogue.keys("integrator"):
         for control in catalogue.keys("step_control"):
-            usual = integrator == "rk4" or control == ray_model.traits["step_control"]
+            usual = integrator == "rk4" or control == ray_model.traits.step_control
             if (whole or usual) and not catalogue.reasons_against(model, integrator, control):
                 yield integrator, control
 

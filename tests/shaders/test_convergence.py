@@ -59,7 +59,7 @@ def test_order_in_float64(scheme: str) -> None:
     errors = np.array([np.abs(_orbit_end(scheme, n) - exact).max() for n in steps])
     slope = _slope(1.0 / steps, errors)
     print(f"{scheme}: order {slope:.2f} in float64")
-    assert abs(slope - catalogue.plug_ins("integrator")[scheme].traits["order"]) <= WITHIN
+    assert abs(slope - catalogue.plug_ins("integrator")[scheme].traits.order) <= WITHIN
 
 
 @pytest.mark.parametrize("scheme, power", [("bs3", 3.0), ("dopri5", 5.0)])
@@ -108,13 +108,13 @@ def _shader_errors(renderer: Renderer, model: str, integrator: str, control: str
     ],
 )
 def test_order_in_the_shader(renderer: Renderer, model: str, integrator: str, settings: tuple[float, ...]) -> None:
-    own = catalogue.plug_ins("ray_model")[model].traits["marches_in"]
+    own = catalogue.plug_ins("ray_model")[model].traits.marches_in
     control, key = ("radius", "rays.step_length") if own == "cartesian" else ("mino", "rays.step_angle")
     errors = _shader_errors(renderer, model, integrator, control, key, settings)
     assert errors.min() > 5e-7, "a point on the floor says nothing about the order"
     slope = _slope(np.array(settings), errors)
     print(f"order {slope:.2f} in the shader")
-    assert abs(slope - catalogue.plug_ins("integrator")[integrator].traits["order"]) <= WITHIN
+    assert abs(slope - catalogue.plug_ins("integrator")[integrator].traits.order) <= WITHIN
 
 
 def test_the_fifth_order_falls_onto_the_floor(renderer: Renderer) -> None:
@@ -124,7 +124,7 @@ def test_the_fifth_order_falls_onto_the_floor(renderer: Renderer) -> None:
 
 @pytest.mark.parametrize("model", ["kerr", "schwarzschild_binet", "kerr_schild", "schwarzschild"])
 def test_the_floor(renderer: Renderer, model: str) -> None:
-    own = catalogue.plug_ins("ray_model")[model].traits["marches_in"]
+    own = catalogue.plug_ins("ray_model")[model].traits.marches_in
     control, key = ("radius", "rays.step_length") if own == "cartesian" else ("mino", "rays.step_angle")
     assert _shader_errors(renderer, model, "rk4", control, key, (0.05, 0.025)).max() <= FLOOR
 

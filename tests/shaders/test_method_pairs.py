@@ -13,8 +13,8 @@ from blackhole_gl.plan import plan
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 
-MARCHED = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits["kind"] == "differential"]
-HOLES = [key for key in MARCHED if catalogue.plug_ins("ray_model")[key].traits.get("charted", True)]
+MARCHED = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.kind == "differential"]
+HOLES = [key for key in MARCHED if catalogue.plug_ins("ray_model")[key].traits.charted]
 
 
 def test_what_does_not_fit_and_why() -> None:
@@ -28,7 +28,7 @@ def test_what_does_not_fit_and_why() -> None:
 
 @pytest.mark.parametrize("model", MARCHED)
 def test_a_model_s_own_step_control_fits_it(model: str) -> None:
-    own = catalogue.plug_ins("ray_model")[model].traits["step_control"]
+    own = catalogue.plug_ins("ray_model")[model].traits.step_control
     assert catalogue.reasons_against(model, "rk4", own) == []
 
 

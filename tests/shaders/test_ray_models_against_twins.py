@@ -26,7 +26,7 @@ WRONG = ("post_newtonian", "post_newtonian_drag")
 
 def scene_of(model: str, distance: float, inclination: float, **changes) -> Scene:
     values = {"rays.model": model, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.azimuth_deg": 25.0, "hole.spin": 0.9}
-    control = catalogue.plug_ins("ray_model")[model].traits.get("step_control", "fixed")
+    control = catalogue.plug_ins("ray_model")[model].traits.step_control or "fixed"
     values |= {"rays.integrator": "rk4", "rays.step_control": control, "rays.step_angle": 0.05, "rays.step_length": 0.12, "rays.max_steps": 4000}
     return presets.load(["kerr"], values | {key.replace("__", "."): value for key, value in changes.items()})
 

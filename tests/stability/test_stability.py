@@ -53,7 +53,7 @@ def test_the_page_is_made_from_the_verdicts() -> None:
 
 
 def test_exact_models_pass_all_that_applies() -> None:
-    exact = [method for method in DEFAULTS if stability.traits(method)["exact"]]
+    exact = [method for method in DEFAULTS if stability.traits(method).exact]
     failed = {(case.key, method.name) for case in CASES for method in exact if STORED[case.key, method.name].verdict in (stability.FAILS, stability.DEGRADED)}
     assert failed == KNOWN_FAILURES
 
@@ -77,7 +77,7 @@ def test_default_methods_do_what_the_page_says(renderer: Renderer, method: stabi
 @pytest.mark.parametrize("model", OTHER_MODELS)
 def test_other_integrators_do_what_the_page_says(renderer: Renderer, model: str, key: str) -> None:
     case = next(case for case in CASES if case.key == key)
-    own = [method for method in METHODS.values() if method.model == model and method.step_control == stability.traits(method)["step_control"]]
+    own = [method for method in METHODS.values() if method.model == model and method.step_control == stability.traits(method).step_control]
     assert [line for method in own if (line := _difference(renderer, case, method))] == [], RENEW
 
 

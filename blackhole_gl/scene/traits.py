@@ -1,0 +1,99 @@
+"""What plug-ins say of themselves in their headers, beside what people read and their parameters: a frozen record for each slot.
+
+Annotations are the schema: `headers.record` checks a header's entries against them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from .headers import Between
+
+Time = Literal["cartesian", "mino"]
+"""What a differential model's step is a step of: σ of Cartesian space (r_s), or Mino time (an angle)."""
+
+ALL_TIMES: tuple[Time, ...] = ("cartesian", "mino")
+
+
+@dataclass(frozen=True)
+class RayModelTraits:
+    """A ray model.
+
+    Attributes:
+        kind: ``closed`` goes from pixel to hits at once, ``differential`` is marched.
+        space_time: that of the observer.
+        spins: whether the hole's spin means anything to it.
+        exact: whether it solves its space-time; else it is art, or an approximation.
+        marches_in: of a differential model; None for closed ones.
+        step_control: the one that suits it best; None for closed models.
+        second_order: whether its forces depend on places alone.
+        march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
+        charted: whether the chart and the stability page measure it; not for what is not about a hole.
+        twin: its model in ``blackhole_gl/reference/`` where that has another name.
+    """
+
+    kind: Literal["closed", "differential"]
+    space_time: Literal["flat", "schwarzschild", "kerr"]
+    spins: bool
+    exact: bool
+    marches_in: Time | None = None
+    step_control: str | None = None
+    second_order: bool = False
+    march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
+    charted: bool = True
+    twin: str | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("marches_in", "step_control"):
+            stated = getattr(self, name) is not None
+            if self.kind == "differential" and not stated:
+                raise ValueError(f"the header lacks {name!r}, which a model of kind differential has to say")
+            if self.kind == "closed" and stated:
+                raise ValueError(f"{name}: a model of kind closed takes no steps and has no such entry")
+
+
+@dataclass(frozen=True)
+class IntegratorTraits:
+    """An integrator.
+
+    Attributes:
+        order: of its error in the step.
+        evaluations: of the right-hand side in one step.
+        pair_evaluations: the same for ``integrator_pair``, which estimates its error too; None where it has none.
+        second_order: whether it asks for forces that depend on places alone.
+        fits: the models it is for, by what they march in.
+    """
+
+    order: Annotated[int, Between(1, 20)]
+    evaluations: Annotated[int, Between(1, 100)]
+    pair_evaluations: Annotated[int, Between(1, 100)] | None = None
+    second_order: bool = False
+    fits: tuple[Time, ...] = ALL_TIMES
+
+
+@dataclass(frozen=True)
+class StepControlTraits:
+    """A step control.
+
+    Attributes:
+        adapts: whether it tries steps and judges them, and so finds their length by itself.
+        needs_pair: whether it judges by the integrator's own error estimate.
+        integrator_steps: steps of the integrator in one step of its own.
+        shortest: mean length of its steps on a ray's whole way, of the plain step.
+        fits: the models it is for, by what they march in.
+    """
+
+    adapts: bool = False
+    needs_pair: bool = False
+    integrator_steps: Annotated[int, Between(1, 100)] = 1
+    shortest: Annotated[float, Between(1e-3, 1.0)] = 1.0
+    fits: tuple[Time, ...] = ALL_TIMES
+
+
+@dataclass(frozen=True)
+class NoTraits:
+    """Of slots whose plug-ins have nothing to say but what people read, and their parameters."""
+
+
+Traits = RayModelTraits | IntegratorTraits | StepControlTraits | NoTraits
