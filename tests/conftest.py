@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import moderngl
 import pytest
 
+from blackhole_gl.plan import plan
 from blackhole_gl.render.context import BACKENDS, ContextError, create_headless
 from blackhole_gl.render.frame import Renderer
 
@@ -37,3 +38,11 @@ def renderer(ctx: moderngl.Context) -> Iterator[Renderer]:
     made = Renderer(ctx)
     yield made
     made.release()
+
+
+@pytest.fixture(autouse=True)
+def fresh_plans() -> Iterator[None]:
+    """Plans are kept by their scenes: one made while a test had something replaced must not outlive it."""
+    plan.cache_clear()
+    yield
+    plan.cache_clear()

@@ -69,12 +69,22 @@ class ChartScene:
         right, up = (2.0 * (_pixels(rng, self.count) + 0.5) / REFINED_SIZE - 1.0).T
         at_infinity = math.isinf(self.scene.camera.distance)
         half = 0.5 * self.scene.camera.field_m if at_infinity else math.tan(math.radians(0.5 * self.scene.camera.fov_deg))
-        radius, chi = half * np.hypot(ASPECT * right, up), np.arctan2(up, ASPECT * right)
+        radius, chi = self._from_the_hole(half * np.hypot(ASPECT * right, up), np.arctan2(up, ASPECT * right))
         chi_near = rng.uniform(-np.pi, np.pi, self.count // 10)
         epsilon = 10.0 ** rng.uniform(-6.0, math.log10(NEAR_CRITICAL), len(chi_near)) * rng.choice([-1.0, 1.0], len(chi_near))
         near = critical_radius(self.scene, chi_near) * (1.0 + epsilon)
-        radius, chi = np.append(radius if at_infinity else np.arctan(radius), near), np.append(chi, chi_near)
+        radius, chi = np.append(radius, near), np.append(chi, chi_near)
         return np.stack([radius * np.cos(chi), radius * np.sin(chi)] if at_infinity else [radius, chi], axis=-1)
+
+    def _from_the_hole(self, radius: np.ndarray, chi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Places on the screen, in polar coordinates from its middle, as angles (ψ, χ) from the hole; in M for a camera at infinity."""
+        look = observer.look_rotation(self.scene.camera)
+        if math.isinf(self.scene.camera.distance):
+            return radius, chi - math.atan2(look[1, 2], look[2, 2])
+        psi = np.arctan(radius)
+        if np.array_equal(look, np.eye(3)):
+            return psi, chi
+        return observer.screen_angles(observer.local_directions(psi, chi) @ look.T)
 
     @cached_property
     def epsilon(self) -> np.ndarray:

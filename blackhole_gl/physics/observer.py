@@ -153,6 +153,12 @@ def local_directions(psi: np.ndarray, chi: np.ndarray) -> np.ndarray:
     return np.stack([-np.cos(psi), -np.sin(psi) * np.sin(chi), np.sin(psi) * np.cos(chi)], axis=-1)
 
 
+def screen_angles(directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(ψ, χ), each (…), of local directions (…, 3): what `local_directions` takes."""
+    n_r, n_theta, n_phi = np.moveaxis(np.asarray(directions, float), -1, 0)
+    return np.arctan2(np.hypot(n_theta, n_phi), -n_r), np.arctan2(-n_theta, n_phi)
+
+
 def parallel_rays(alpha: np.ndarray, beta: np.ndarray) -> np.ndarray:
     """Local vectors (…, 3) of a far observer's parallel rays at screen coordinates α (right), β (up), in M."""
     alpha, beta = np.broadcast_arrays(np.asarray(alpha, float), np.asarray(beta, float))

@@ -75,7 +75,6 @@ def test_the_method_is_named_in_a_few_words():
 
 def test_parts_that_cannot_be_combined_are_refused(monkeypatch):
     monkeypatch.setattr(catalogue, "reasons_against", lambda *_: ["these do not go together"])
-    plan.plan.cache_clear()  # a refusal is not kept, so nothing of this stays
     with pytest.raises(SceneError, match="rays.integrator: these do not go together"):
         planned()
 
