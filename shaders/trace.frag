@@ -11,6 +11,7 @@
 #include "common/rotation.glsl"
 #include "common/hermite.glsl"
 #include "common/hits.glsl"
+#include "common/curve.glsl"
 #include "common/hit_map_write.glsl"
 #slot ray_model
 #if MARCHED

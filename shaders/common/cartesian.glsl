@@ -153,8 +153,9 @@ float ray_elevation(State s) {
     return s.x.z / ray_radius(s);
 }
 
-vec4 ray_place(State s) {
-    return vec4(twisted(s.x.xy, s.twist), s.x.z, 1.0);
+Path ray_path(Orbit orbit, State s) {
+    float u2 = 1.0 / dot(s.x, s.x);
+    return Path(vec4(s.x, 1.0), vec4(s.v, 0.0), vec2(s.twist, -ray_twist_strength() * u2 * sqrt(u2)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {

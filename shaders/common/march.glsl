@@ -12,8 +12,8 @@
 //     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
-//     vec4  ray_place(State)                      (p, q): the place is p/q in r_s, in the plan's frame; q is 0 infinitely far away
-//     Momentum ray_momentum(Orbit, State)         there (common/hits.glsl)
+//     Path  ray_path(Orbit, State)                where it is in space, with rates (common/curve.glsl)
+//     Momentum ray_momentum(Orbit, State)         (common/hits.glsl)
 // and, for those integrators and step controls that ask for them,
 //     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
 //     State state_push(State s, float h2, State k)      places moved by h2 times the rates of their rates

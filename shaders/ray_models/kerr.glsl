@@ -131,8 +131,9 @@ float ray_elevation(State s) {
     return s.n.z;
 }
 
-vec4 ray_place(State s) {
-    return vec4(rotate(s.n.xy, cos_sin(s.twist)), s.n.z, 2.0 * s.w * length(s.n));
+Path ray_path(Orbit orbit, State s) {
+    vec2 factors = 1.0 - s.w * hole_w_factors;
+    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(s.twist, orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {

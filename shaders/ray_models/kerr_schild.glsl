@@ -229,13 +229,14 @@ vec2 ray_polar(State s) {
     return vec2(length(s.n.xy) * inversesqrt(rho * rho + q2), s.n.z / rho);
 }
 
-vec4 ray_place(State s) {
-    float w = kerr_w(s);
-    vec2 polar = ray_polar(s);
-    return vec4(polar.x * ray_heading(s, w), polar.y, 2.0 * w);
+// dτ/dσ: Mino time by the parameter of the march.
+float ray_mino_rate(State s) {
+    float q2 = hole_spin * hole_spin * s.w * s.w, nz2 = s.n.z * s.n.z;
+    float rho = kerr_rho(q2, nz2);
+    return 1.0 / (rho * rho + q2 * nz2 / (rho * rho));
 }
 
-// p_θ = cot θ (x p_x + y p_y) − r sin θ p_z with p = p_n n + w L × n; dw/dτ = Σ w² dw/dσ along the march, Σw² = ρ² + q² n_z²/ρ².
+// p_θ = cot θ (x p_x + y p_y) − r sin θ p_z with p = p_n n + w L × n; dw/dτ from dw/dσ along the march.
 Momentum ray_momentum(Orbit orbit, State s) {
     float q2 = hole_spin * hole_spin * s.w * s.w, nz2 = s.n.z * s.n.z;
     float rho = kerr_rho(q2, nz2), w = s.w / rho;
@@ -248,8 +249,19 @@ Momentum ray_momentum(Orbit orbit, State s) {
     float q2_rate = 2.0 * q2 * rate.w / max(s.w, 1e-20), gap = 1.0 - q2;
     float root = sqrt(gap * gap + 4.0 * q2 * nz2);
     float rho2_rate = 0.5 * (-q2_rate + (2.0 * (q2_rate * nz2 + 2.0 * q2 * s.n.z * rate.n.z) - gap * q2_rate) / root);
-    float w_rate = (rate.w - 0.5 * w * rho2_rate / rho) / rho * (rho * rho + q2 * nz2 / (rho * rho));
+    float w_rate = (rate.w - 0.5 * w * rho2_rate / rho) / (rho * ray_mino_rate(s));
     return Momentum(w_rate, p_theta * e_theta + (s.l.z / sine) * e_phi);
+}
+
+// In Mino time the place goes by the momentum and by the turn a w (2E + a w L_z)/Δw² about the axis, L_z that of the backward ray.
+Path ray_path(Orbit orbit, State s) {
+    float w = kerr_w(s), a = hole_spin;
+    vec2 polar = ray_polar(s);
+    vec3 n = vec3(polar.x * ray_heading(s, w), polar.y);
+    Momentum momentum = ray_momentum(orbit, s);
+    float turn = -a * w * (2.0 * s.energy + a * s.l.z * w) / ((1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y));
+    vec3 n_rate = momentum.n_rate + turn * vec3(-n.y, n.x, 0.0);
+    return Path(vec4(n, 2.0 * w), ray_mino_rate(s) * vec4(n_rate, 2.0 * momentum.w_rate), vec2(0.0));
 }
 
 vec2 ray_plane_point(State s) {

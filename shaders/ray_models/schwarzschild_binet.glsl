@@ -111,9 +111,9 @@ float ray_elevation(State s) {
     return ray_height(s);
 }
 
-vec4 ray_place(State s) {
+Path ray_path(Orbit orbit, State s) {
     vec2 turn = cos_sin(s.angle);
-    return vec4(turn.x * s.n + turn.y * s.aside, 2.0 * s.w);
+    return Path(vec4(turn.x * s.n + turn.y * s.aside, 2.0 * s.w), vec4(s.b * (turn.x * s.aside - turn.y * s.n), 2.0 * s.w_rate), vec2(0.0));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {
