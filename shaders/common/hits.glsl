@@ -16,14 +16,28 @@ Momentum momentum_at(vec3 x, vec3 v) {
     return Momentum(-outward, 2.0 * r * (v - outward * n));
 }
 
+#if MEETINGS
+// With a thing or a medium.
+struct Meeting {
+    int kind, index;    // THING_… or MEDIUM_…, and which of its instances; MEETING_NONE
+    int before;         // how many crossings of the disk's plane come before it along the ray
+    bool enters;        // from outside into it
+    vec3 place;         // r_s
+    Momentum momentum;
+};
+#endif
+
 struct Hits {
-    int fate;          // UNRESOLVED, ESCAPED, CAPTURED
+    int fate;          // UNRESOLVED, ESCAPED, CAPTURED, MET (something opaque)
     vec3 direction;    // asymptotic, world, unit; zero unless escaped
     float lambda;      // L_z/E in M
     int steps;
     vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of z = 0, nearest along the ray first; zero = none
 #if RAYS_LISTED
     Momentum momentum[3];  // at the crossings
+#endif
+#if MEETINGS
+    Meeting meeting[MEETINGS];  // the first, nearest along the ray first
 #endif
 };
 
@@ -37,6 +51,10 @@ Hits no_hits(float lambda) {
 #if RAYS_LISTED
     Momentum none = Momentum(0.0, vec3(0.0));
     hits.momentum = Momentum[3](none, none, none);
+#endif
+#if MEETINGS
+    for (int k = 0; k < MEETINGS; ++k)
+        hits.meeting[k] = Meeting(-1, 0, 0, false, vec3(0.0), Momentum(0.0, vec3(0.0)));
 #endif
     return hits;
 }
@@ -53,3 +71,18 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
     else if (place == 2) hits.momentum[2] = momentum;
 #endif
 }
+
+#if MEETINGS
+// Puts a meeting behind the others. Where there is no room those beyond are dropped, but not one that ends the ray: it takes the last place.
+void add_meeting(inout Hits hits, int kind, int index, bool enters, vec3 place, Momentum momentum, bool ends) {
+    int before = (hits.crossing[0] != vec2(0.0) ? 1 : 0) + (hits.crossing[1] != vec2(0.0) ? 1 : 0) + (hits.crossing[2] != vec2(0.0) ? 1 : 0);
+    Meeting meeting = Meeting(kind, index, before, enters, place, momentum);
+    bool kept = false;
+    for (int k = 0; k < MEETINGS; ++k) {
+        if (!kept && (hits.meeting[k].kind < 0 || ends && k == MEETINGS - 1)) {
+            hits.meeting[k] = meeting;
+            kept = true;
+        }
+    }
+}
+#endif

@@ -64,6 +64,53 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 }
 #endif
 
+#if MEETINGS
+// One meeting within the step from `a` to a state h later. As with crossings the root on the curve is stepped to again.
+void add_meeting_found(Orbit orbit, State a, float h, Curve curve, Found found, inout Hits hits) {
+    float t = meeting_root(curve, found);
+    State there = march_step(orbit, a, h * t);
+    vec3 velocity, ignored, onward = curve_point(curve, t, velocity);
+    Curve here = Curve(ray_path(orbit, there), ray_path(orbit, there), 0.0);
+    vec3 x = curve_point(here, 0.0, ignored);
+    float off = distance_to(found.kind, found.index, x);
+    float probe = 1e-3 * max(abs(off), 1e-3);
+    float slope = (distance_to(found.kind, found.index, x + probe * normalize(velocity)) - off) / probe * length(velocity) / h;
+    float slip = clamp(-off / (abs(slope) < 1e-6 ? 1e30 : slope), -0.1 * h, 0.1 * h);
+#ifdef RAY_FIRST_ORDER
+    there = state_step(there, slip, ray_rhs(orbit, there));
+#else
+    there = state_drift(there, slip);
+#endif
+    vec4 place = path_place(ray_path(orbit, there));
+    bool enters = distance_to(found.kind, found.index, onward - 2e-3 * normalize(velocity)) >= 0.0;
+    add_meeting(hits, found.kind, found.index, enters, place.xyz / place.w, ray_momentum(orbit, there), is_opaque(found.kind));
+}
+
+// All that is met in a step, crossings of the disk's plane too, in order. Returns whether the ray ends on something opaque.
+bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crossed, inout Hits hits) {
+    Curve curve = Curve(ray_path(orbit, a), ray_path(orbit, b), h);
+    float crossing = 2.0, from = 0.0;
+#if ORDERS > 0
+    if (crossed) crossing = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
+#endif
+    for (int i = 0; i < 8; ++i) {
+        Found found = next_meeting(curve, from, min(end, 1.0));
+        bool none = found.kind == MEETING_NONE;
+#if ORDERS > 0
+        if (crossing <= 1.0 && (none || crossing < found.after)) {
+            find_crossing(orbit, a, b, h, end, hits);
+            crossing = 2.0;
+        }
+#endif
+        if (none) return false;
+        add_meeting_found(orbit, a, h, curve, found, hits);
+        if (is_opaque(found.kind)) return true;
+        from = found.after;
+    }
+    return false;
+}
+#endif
+
 // A ray under way.
 struct March {
     State s, next;  // before and after the last step
@@ -73,6 +120,9 @@ struct March {
 #endif
     int steps, fate;
     bool crossed;   // z = 0, in the last step
+#if MEETINGS
+    bool near;      // something may have been met in it
+#endif
 };
 
 // llvmpipe (Mesa 22.3) hands on what the body of a loop with one exit computed for a finished ray in later rounds. Where the body is a function of
@@ -83,6 +133,15 @@ struct March {
 #else
 #define MARCH_REPEATS 1
 #endif
+
+// Whether what happened in the last step is dear to look at.
+bool march_pauses(March m) {
+#if MEETINGS
+    return m.crossed || m.near;
+#else
+    return m.crossed;
+#endif
+}
 
 // Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: software renderers run every branch of a loop's body in
 // every round, so what happens once a ray or once a crossing stands outside it.
@@ -108,10 +167,13 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #if ORDERS > 0
         m.crossed = seeks && is_below(m.next) != is_below(m.s);
 #endif
+#if MEETINGS
+    m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next));
+#endif
 #if MARCH_REPEATS
-    } while (!m.crossed && m.fate == UNRESOLVED && m.steps < plan_max_steps);
+    } while (!march_pauses(m) && m.fate == UNRESOLVED && m.steps < plan_max_steps);
 #else
-        if (m.crossed || m.fate != UNRESOLVED) break;
+        if (march_pauses(m) || m.fate != UNRESOLVED) break;
     }
 #endif
 }
@@ -134,9 +196,22 @@ Hits trace_ray(RayStart start) {
     m.steps = 0;
     m.fate = UNRESOLVED;
     m.crossed = false;
+#if MEETINGS
+    m.near = false;
+    // From event to event, whatever it is.
+    bool met = false;
+    float end;
+    do {
+        march_on(orbit, ORDERS > 0, m);
+        end = march_end(orbit, m);
+        if (march_pauses(m)) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, hits);
+    } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
+    if (met) m.fate = MET;
+#else
     march_on(orbit, ORDERS > 0, m);
     float end = march_end(orbit, m);
-#if ORDERS > 0
+#endif
+#if ORDERS > 0 && !MEETINGS
     // From crossing to crossing. Most rays cross once: the step to a crossing is as dear as three of the march, and a loop that began with the
     // march would run it once more for each ray. A ray that is done has `crossed` false, so that further rounds leave it as it is.
     int found = 0;
