@@ -18,10 +18,11 @@ from ..measure import live
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
+from .area import Area
 from .full_screen import FullScreen
 from .live_chart import LiveChart
 from .panel import Panel
-from .picture import Area, Picture
+from .picture import Picture
 from .preparation import Preparation
 from .shortcuts import Shortcuts
 from .state import WindowState

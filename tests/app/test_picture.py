@@ -8,12 +8,15 @@ import numpy as np
 import pytest
 
 from blackhole_gl import plan
-from blackhole_gl.app.picture import Area, Picture
+from blackhole_gl.app.area import Area
+from blackhole_gl.app.picture import Picture
 from blackhole_gl.app.preparation import Preparation
 from blackhole_gl.render.programs import Unready
 from blackhole_gl.render.supersampling import MOST_SAMPLES
 from blackhole_gl.scene import Scene
 from tests.app.fake_renderer import FakeRenderer
+
+PLAIN = Scene()
 
 
 def test_coarse_pictures_have_a_pixel_at_least():
@@ -155,7 +158,7 @@ def resting(ctx):
     """A picture that nothing happens to, drawn by a renderer of flat colours."""
     picture = Picture(ctx, FakeRenderer(ctx), Preparation(lambda scene, size: None))
 
-    def draw(scene=Scene(), time=0.0):
+    def draw(scene=PLAIN, time=0.0):
         return picture.update(scene, time, Area(0, 0, 64, 36), moving=False, camera_moving=False)
 
     while not picture.is_current:
