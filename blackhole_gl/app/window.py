@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import traceback
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -14,7 +15,6 @@ from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the
 import glfw
 import moderngl
 
-from ..measure import live
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
@@ -100,13 +100,12 @@ def run(
         immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
     except RuntimeError as error:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
-    try:
+    with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
+        at_end.callback(immapp.manual_render.tear_down)
+        at_end.callback(window.warm_up.close)
+        at_end.callback(window.live_chart.close)
         while not params.app_shall_exit and not (driver is not None and driver.finished):
             immapp.manual_render.render()
-    finally:
-        live.close()
-        window.warm_up.close()
-        immapp.manual_render.tear_down()
     return window.state
 
 
