@@ -235,6 +235,7 @@ class Window:
         em = hello_imgui.em_size()
         if self.picture is not None:
             overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         view_scale.draw(state, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         help_window.draw(state, self.bindings, self.key_file)

@@ -18,7 +18,7 @@ from hands import Frames, Hands, wait
 from PIL import Image
 
 from blackhole_gl import plan
-from blackhole_gl.app import preset_switch
+from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.scene import fields, presets
 
@@ -103,6 +103,21 @@ def keys_switch(hands: Hands) -> None:
     assert state.time > paused_at
     hands.press(Key.o)
     assert not state.show_overlay
+
+
+def compass_goes_with_the_figures(hands: Hands) -> None:
+    """One key for both, and what is not shown is not worked out."""
+    asked, of = [], compass.of
+    compass.of = lambda scene: asked.append(scene) or of(scene)
+    try:
+        hands.context.yield_(3)
+        assert asked[-1] is hands.scene
+        hands.press(Key.o)
+        asked.clear()
+        hands.context.yield_(5)
+        assert not hands.state.show_overlay and not asked
+    finally:
+        compass.of = of
 
 
 def help_window(hands: Hands) -> None:
