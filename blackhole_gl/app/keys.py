@@ -64,7 +64,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("full_screen", ("F11",), "Full screen"),
     Action("view", ("V",), "Next view: picture, steps, orders, g-factor, difference, conservation, unresolved"),
     Action("panel", ("TAB",), "Show or hide the panel"),
-    Action("overlay", ("O",), "Show or hide the figures"),
+    Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),
     Action("save", ("CTRL+S",), "Save the scene"),
     Action("copy", ("CTRL+SHIFT+C",), "Copy the scene as TOML"),

@@ -15,6 +15,7 @@ from ..measure import live
 from ..measure.live import Live, LivePoint
 from ..plan import Plan
 from ..scene import Scene, SceneError, catalogue
+from ..worker import Worker
 from . import theme
 from .state import WindowState
 
@@ -22,7 +23,10 @@ TITLE = "Error and cost"
 _REACH = 12.0  # in units of a 96 dpi screen: how near to a point the mouse must be
 _HALF_A_PIXEL = 0.5
 _RESTS = 0.4  # seconds of stillness before a new view is measured
-_COLOURS = ((0.30, 0.62, 0.90), (0.95, 0.45, 0.20), (0.20, 0.75, 0.55), (0.85, 0.55, 0.75), (0.93, 0.72, 0.20), (0.50, 0.80, 0.95), (0.70, 0.50, 0.35), (0.95, 0.90, 0.40), (0.62, 0.60, 0.95), (0.75, 0.85, 0.35), (0.60, 0.60, 0.60), (0.85, 0.30, 0.35))
+_COLOURS = (
+    (0.30, 0.62, 0.90), (0.95, 0.45, 0.20), (0.20, 0.75, 0.55), (0.85, 0.55, 0.75), (0.93, 0.72, 0.20), (0.50, 0.80, 0.95),
+    (0.70, 0.50, 0.35), (0.95, 0.90, 0.40), (0.62, 0.60, 0.95), (0.75, 0.85, 0.35), (0.60, 0.60, 0.60), (0.85, 0.30, 0.35),
+)  # fmt: skip
 
 
 class LiveChart:
@@ -35,6 +39,7 @@ class LiveChart:
     def __init__(self, make_renderer: Callable[[moderngl.Context], Any]):
         self._make_renderer = make_renderer
         self._renderer: Any = None
+        self._worker = Worker()  # one for all views: its imports take longest
         self._live: Live | None = None
         self._view: tuple | None = None
         self._since = 0.0
@@ -66,7 +71,7 @@ class LiveChart:
             self._live = None
         if self._live is None:
             if now - self._since >= _RESTS:
-                self._live = Live(state.scene)
+                self._live = Live(state.scene, self._worker)
                 self.fit_next = True
             return
         if not self._live.busy:
@@ -74,6 +79,10 @@ class LiveChart:
         if self._renderer is None:
             self._renderer = self._make_renderer(gl)
         self.fit_next |= self._live.advance(self._renderer)
+
+    def close(self) -> None:
+        """Ends the measurement's other process, if there is one; what it is at is thrown away."""
+        self._worker.close()
 
     def draw(self, state: WindowState) -> None:
         """The chart's window, when it is wanted; its close button puts it away."""

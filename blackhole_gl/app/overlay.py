@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
+from collections.abc import Callable
 
-from imgui_bundle import hello_imgui, imgui
+import numpy as np
+from imgui_bundle import ImVec4, hello_imgui, imgui
 
-from . import theme
+from . import compass, theme
 from .picture import Picture
 from .state import WindowState
 
@@ -15,9 +18,12 @@ _STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_n
 _FIXED = (_STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
 UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
 
+_COMPASS_EM = 6.0  # its width and height
+
 PREPARING_AFTER_S = 0.3  # a note that comes and goes at once would only flicker
 
 Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
+_At = Callable[[np.ndarray], Corner]  # of a place in the compass's square
 
 
 def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
@@ -44,6 +50,60 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
     if picture.scale < 1.0:
         imgui.text_colored(theme.QUIET, f"{picture.scale:.2f} of full resolution")
     imgui.end()
+
+
+def directions(state: WindowState, corner: Corner) -> None:
+    """The compass, with its top right at `corner`; none where the camera cannot be."""
+    if not state.show_overlay:
+        return
+    try:
+        shown = compass.of(state.scene)
+    except ValueError:  # the picture fails for the same reason, which is told
+        return
+    em = hello_imgui.em_size()
+    side = _COMPASS_EM * em
+    origin = corner[0] - side, corner[1]
+    canvas = imgui.get_background_draw_list()
+    canvas.add_circle_filled((origin[0] + 0.5 * side, origin[1] + 0.5 * side), 0.5 * side, _code(theme.BACKDROP))
+
+    def at(place: np.ndarray) -> Corner:
+        return origin[0] + side * float(place[0]), origin[1] + side * float(place[1])
+
+    _circle(canvas, shown, at)
+    _axis(canvas, shown, at, 0.4 * em)
+    _hole(canvas, shown, at, 0.25 * em)
+
+
+def _circle(canvas: imgui.ImDrawList, shown: compass.Compass, at: _At) -> None:
+    """The plane of the disk, bright where it comes towards the camera."""
+    corners = [at(place) for place in shown.circle]
+    near, far = _code(theme.TEXT), _code(theme.FAINT)
+    for here, there, is_near in zip(corners, corners[1:], shown.circle_is_near):
+        canvas.add_line(here, there, near if is_near else far, 1.5)
+
+
+def _axis(canvas: imgui.ImDrawList, shown: compass.Compass, at: _At, head: float) -> None:
+    """The axis, an arrow if there is a spin."""
+    colour, (tail, tip) = _code(theme.ACCENT), (at(place) for place in shown.axis)
+    canvas.add_line(tail, tip, colour, 1.5)
+    length = math.dist(tail, tip)
+    if not shown.spins or length < head:  # seen from above a pole it is a point
+        return
+    x, y = head * (tip[0] - tail[0]) / length, head * (tip[1] - tail[1]) / length
+    canvas.add_triangle_filled(tip, (tip[0] - x - 0.5 * y, tip[1] - y + 0.5 * x), (tip[0] - x + 0.5 * y, tip[1] - y - 0.5 * x), colour)
+
+
+def _hole(canvas: imgui.ImDrawList, shown: compass.Compass, at: _At, radius: float) -> None:
+    """The direction to the hole: black with a rim where the hole is before the camera, the rim alone where it is behind."""
+    middle, end = at(np.array([0.5, 0.5])), at(shown.hole)
+    canvas.add_line(middle, end, _code(theme.FAINT), 1.5)
+    if shown.hole_is_ahead:
+        canvas.add_circle_filled(end, radius, _code(theme.HOLE))
+    canvas.add_circle(end, radius, _code(theme.TEXT if shown.hole_is_ahead else theme.FAINT), 0, 1.5)
+
+
+def _code(colour: ImVec4) -> int:
+    return imgui.color_convert_float4_to_u32(colour)
 
 
 def messages(state: WindowState, picture: Picture | None, corner: Corner, width: float) -> None:

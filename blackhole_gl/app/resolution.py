@@ -30,13 +30,15 @@ back: they would blur the picture for a gain that nobody sees."""
 
 # Steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop. A resting picture must trace all its rays anew.
 _LEAVE = {True: 0.9, False: 2.0}
-_SETTLING_S = 2.0  # in which a movement finds its step, whatever the noise
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
+_SETTLING_S = 8.0 * _GLIDE_S  # a movement's step is found then, whatever the noise: e⁻⁸ of the longest glide is less than a hundredth of a step
 _MOST_OTHER = 0.5  # of a frame that is not the picture's: waiting for the screen cannot be told from work, and would keep pictures coarse
 _REMEMBERED = 9  # frames; those beside a picture at rest that are of the same view
-_CONSTANTS, _ENOUGH = 40, 20  # estimates of the constant that are kept, and that are believed: of four movements, and of two
+# Estimates of the constant that are kept: of four movements, each of which gives one a picture while the one at rest is remembered, and one at its end.
+_ESTIMATES = 4 * (_REMEMBERED + 1)
 _APART = 2.0  # ratio of pixels from which two frames tell the constant from the rate
-_LEAST_OF_PIXELS = 1.0 / 16.0  # of a picture's cost: a constant found too large must not make pixels free
+# Of a picture's cost, so that a constant found too large does not make pixels free: the share of the pixels that even the coarsest picture has.
+_LEAST_OF_PIXELS = COARSEST[True] ** 2
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ class Resolution:
     def __init__(self) -> None:
         # Of moving cameras' pictures, with those at rest that trace as they do; and of others, which save more than the trace: their sky is kept too.
         self._costs = {moving: deque[_Cost](maxlen=_REMEMBERED) for moving in (True, False)}
-        self._constants: deque[float] = deque(maxlen=_CONSTANTS)
+        self._constants: deque[float] = deque(maxlen=_ESTIMATES)
         self._cheapest = math.inf  # median cost of a few pictures that followed each other, in milliseconds
         self._other_ms: deque[float] = deque(maxlen=_REMEMBERED)
         self._step = {True: 0, False: 0}  # below full size, the camera moving or not
@@ -75,12 +77,12 @@ class Resolution:
 
     @property
     def constant_ms(self) -> float:
-        """What a picture of any size that traces rays is taken to cost; 0 until two movements have been seen.
+        """What a picture of any size that traces rays is taken to cost; 0 until two movements have been seen, half of those that count.
 
         It is no more than pictures have cost at their cheapest. When a machine becomes busy as a movement begins, coarse pictures seem to cost as much as
         the whole one did; were that believed, the next would be drawn far too large.
         """
-        return min(median(self._constants), self._cheapest) if len(self._constants) >= _ENOUGH else 0.0
+        return min(median(self._constants), self._cheapest) if 2 * len(self._constants) >= _ESTIMATES else 0.0
 
     def record(self, scale: float, milliseconds: float, *, traced: bool) -> None:
         """Takes in what a picture at `scale` cost."""

@@ -12,6 +12,9 @@ ERROR = ImVec4(1.0, 0.45, 0.40, 1.0)
 DIM = ImVec4(0.62, 0.64, 0.68, 1.0)
 QUIET = ImVec4(0.78, 0.79, 0.82, 1.0)
 TEXT = ImVec4(0.90, 0.91, 0.93, 1.0)
+FAINT = ImVec4(0.42, 0.43, 0.46, 1.0)
+HOLE = ImVec4(0.0, 0.0, 0.0, 1.0)
+BACKDROP = ImVec4(0.075, 0.077, 0.081, 0.6)
 
 
 def _grey(value: float, alpha: float = 1.0) -> ImVec4:

@@ -5,14 +5,14 @@ Nothing depends on it: where there is no such process or no such cache, the wind
 
 from __future__ import annotations
 
-import multiprocessing
 import time as clock
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import Future
 from functools import cache
 
 from ..render.context import create_headless
 from ..render.frame import Renderer
 from ..scene import Scene
+from ..worker import Worker
 
 _UNTIL_WRITTEN_S = 0.05  # Mesa hands its cache's files to a thread of its own and offers no way to wait for it
 
@@ -21,13 +21,11 @@ class WarmUp:
     """The other process: one for the window's life, started when first wanted."""
 
     def __init__(self) -> None:
-        self._worker: ProcessPoolExecutor | None = None
+        self._worker = Worker()
 
     def start(self) -> None:
         """Starts the process, so that the first `submit` need not wait for it."""
-        if self._worker is None:
-            # Spawned, as a fork would share the window's context.
-            self._worker = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
+        if not self._worker.is_started:
             self._worker.submit(_renderer)
 
     def submit(self, scene: Scene, size: tuple[int, int]) -> Future[None]:
@@ -40,12 +38,7 @@ class WarmUp:
 
     def close(self) -> None:
         """Ends the process; what it is at is thrown away."""
-        if self._worker is not None:
-            for process in multiprocessing.active_children():  # the window has no other
-                process.terminate()
-            # Waited for, which takes no time now: an executor left to itself may trip over its closed pipe when the interpreter ends.
-            self._worker.shutdown(cancel_futures=True)
-            self._worker = None
+        self._worker.close()
 
 
 @cache

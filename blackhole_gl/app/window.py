@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import traceback
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -14,14 +15,14 @@ from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the
 import glfw
 import moderngl
 
-from ..measure import live
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
+from .area import Area
 from .full_screen import FullScreen
 from .live_chart import LiveChart
 from .panel import Panel
-from .picture import Area, Picture
+from .picture import Picture
 from .preparation import Preparation
 from .shortcuts import Shortcuts
 from .state import WindowState
@@ -99,13 +100,12 @@ def run(
         immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
     except RuntimeError as error:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
-    try:
+    with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
+        at_end.callback(immapp.manual_render.tear_down)
+        at_end.callback(window.warm_up.close)
+        at_end.callback(window.live_chart.close)
         while not params.app_shall_exit and not (driver is not None and driver.finished):
             immapp.manual_render.render()
-    finally:
-        live.close()
-        window.warm_up.close()
-        immapp.manual_render.tear_down()
     return window.state
 
 
@@ -235,6 +235,7 @@ class Window:
         em = hello_imgui.em_size()
         if self.picture is not None:
             overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         view_scale.draw(state, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         help_window.draw(state, self.bindings, self.key_file)

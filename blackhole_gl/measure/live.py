@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import time as clock
 from collections.abc import Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +14,7 @@ from .. import listed_rays, plan
 from ..listed_rays import TracedRays
 from ..render.frame import Renderer
 from ..scene import Scene
+from ..worker import Worker
 from . import timing
 from .errors import compare
 from .methods import Method, sensible
@@ -61,7 +60,7 @@ def view_of(scene: Scene) -> tuple[Any, ...]:
 
 
 class Live:
-    """Measures the methods on the view of `scene`. The float64 twin runs in another process, the shader in the caller's context.
+    """Measures the methods on the view of `scene`. The float64 twin runs in the worker's process, the shader in the caller's context.
 
     Attributes:
         scene: the scene measured.
@@ -69,8 +68,9 @@ class Live:
         failure: why there is nothing to measure; empty when there is.
     """
 
-    def __init__(self, scene: Scene):
+    def __init__(self, scene: Scene, worker: Worker):
         self.scene = scene
+        self._worker = worker
         self.points: list[LivePoint] = []
         self.failure = "" if is_physical(scene) else "Gravity or horizon are not physical: there is no truth to compare with."
         methods = sensible(scene, whole=False)
@@ -102,7 +102,7 @@ class Live:
         if not self.busy:
             return False
         if self._truth is None:
-            self._truth = _worker().submit(_find_truth, self.scene)
+            self._truth = self._worker.submit(_find_truth, self.scene)
         if not self._truth.done():
             return False
         found, end = len(self.points), clock.perf_counter() + _BUDGET_S
@@ -154,16 +154,3 @@ class Live:
 def _find_truth(scene: Scene) -> _Truth:
     view = ChartScene("view", scene, RAYS)
     return _Truth(view.rays, view.epsilon >= NEAR_CRITICAL, view.truth)
-
-
-@cache
-def _worker() -> ProcessPoolExecutor:
-    """One process for the whole session; spawned, as a fork would share the window's context."""
-    return ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
-
-
-def close() -> None:
-    """Ends the other process, if there is one; what it was at is thrown away."""
-    if _worker.cache_info().currsize:
-        _worker().shutdown(wait=False, cancel_futures=True)
-        _worker.cache_clear()

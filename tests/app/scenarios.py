@@ -8,15 +8,17 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from imgui_bundle import imgui  # before glfw: on Linux the first GLFW that is loaded is the one used
+from imgui_bundle.glfw_utils import glfw_window_hello_imgui
+
+# isort: split
 import glfw
 import numpy as np
 from hands import Frames, Hands, wait
-from imgui_bundle import imgui
-from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 from PIL import Image
 
 from blackhole_gl import plan
-from blackhole_gl.app import preset_switch
+from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.scene import fields, presets
 
@@ -101,6 +103,21 @@ def keys_switch(hands: Hands) -> None:
     assert state.time > paused_at
     hands.press(Key.o)
     assert not state.show_overlay
+
+
+def compass_goes_with_the_figures(hands: Hands) -> None:
+    """One key for both, and what is not shown is not worked out."""
+    asked, of = [], compass.of
+    compass.of = lambda scene: asked.append(scene) or of(scene)
+    try:
+        hands.context.yield_(3)
+        assert asked[-1] is hands.scene
+        hands.press(Key.o)
+        asked.clear()
+        hands.context.yield_(5)
+        assert not hands.state.show_overlay and not asked
+    finally:
+        compass.of = of
 
 
 def help_window(hands: Hands) -> None:

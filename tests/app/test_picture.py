@@ -3,17 +3,21 @@
 import math
 import time as clock
 from concurrent.futures import Future
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from blackhole_gl import plan
-from blackhole_gl.app.picture import Area, Picture
+from blackhole_gl.app.area import Area
+from blackhole_gl.app.picture import Picture
 from blackhole_gl.app.preparation import Preparation
 from blackhole_gl.render.programs import Unready
 from blackhole_gl.render.supersampling import MOST_SAMPLES
 from blackhole_gl.scene import Scene
 from tests.app.fake_renderer import FakeRenderer
+
+PLAIN = Scene()
 
 
 def test_coarse_pictures_have_a_pixel_at_least():
@@ -49,7 +53,7 @@ class Renderer(FakeRenderer):
         self.compiled = set()
 
     def render(self, scene, time, size, target=None, **how):
-        program = plan.resolved(scene).rays.integrator, scene.disk.enabled
+        program = plan.plan(scene).scene.rays.integrator, scene.disk.enabled
         if program not in self.compiled:
             if self.programs.deadline < clock.perf_counter():
                 raise Unready
@@ -59,14 +63,14 @@ class Renderer(FakeRenderer):
     @property
     def integrators(self):
         """Of the pictures drawn so far."""
-        return [plan.resolved(scene).rays.integrator for scene, *_ in self.calls]
+        return [plan.plan(scene).scene.rays.integrator for scene, *_ in self.calls]
 
 
 class Moving:
     """A picture under a camera that a test tilts; the plan takes another integrator above 30° and above 60°."""
 
     def __init__(self, ctx, monkeypatch):
-        monkeypatch.setattr(plan, "resolved", self._resolved)
+        monkeypatch.setattr(plan, "plan", lambda scene: SimpleNamespace(scene=self._resolved(scene)))
         self.work, self._time = [], 0.0
         self.renderer = Renderer(ctx)
         self.picture = Picture(ctx, self.renderer, Preparation(self._submit))
@@ -81,7 +85,7 @@ class Moving:
         return scene.with_values({"rays.model": "kerr", "rays.integrator": integrator})
 
     def _submit(self, scene, size):
-        self.work.append((plan.resolved(scene).rays.integrator, Future()))
+        self.work.append((plan.plan(scene).scene.rays.integrator, Future()))
         return self.work[-1][1]
 
     def draw(self, **values):
@@ -155,7 +159,7 @@ def resting(ctx):
     """A picture that nothing happens to, drawn by a renderer of flat colours."""
     picture = Picture(ctx, FakeRenderer(ctx), Preparation(lambda scene, size: None))
 
-    def draw(scene=Scene(), time=0.0):
+    def draw(scene=PLAIN, time=0.0):
         return picture.update(scene, time, Area(0, 0, 64, 36), moving=False, camera_moving=False)
 
     while not picture.is_current:

@@ -218,6 +218,19 @@ def test_a_camera_that_turns_about_the_axis_is_drawn_as_sharp_as_its_kept_rays_a
     assert turning == pytest.approx(2.0 * traced, rel=STEP - 1.0)
 
 
+@pytest.mark.parametrize("full_ms", [10.0, 20.0])
+def test_waiting_for_the_screen_does_not_keep_a_picture_coarse(full_ms):
+    """A screen of 60 Hz, aimed at: each frame waits for the next 60th of a second, which looks like work that pixels have to leave room for.
+    Half of the frame is theirs all the same, but for one step."""
+    frame, machine = 1e3 / 60.0, Machine(400.0)
+    machine.run(target=60.0, seconds=3.0)
+    machine.full_ms = full_ms
+    for _ in range(300):
+        cost = machine.run(1, target=60.0)[-1] ** 2 * full_ms
+        machine.other_ms = frame * math.ceil(cost / frame) - cost
+    assert cost >= min(0.5 * frame, full_ms) / STEP**2
+
+
 def test_a_small_picture_that_is_cheaper_by_the_pixel_has_no_negative_constant():
     """As where it fits a cache."""
     resolution = Resolution()

@@ -268,7 +268,8 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
     text = page.page(found, WHERE, "a test")
     assert "nan" not in text and "a machine" in text
     assert "1 methods" in text and "1 of them also refined" in text and "| a0_near | kerr, rk4, mino | 0.1 |" in text
-    closed = [replace(item, model="schwarzschild_table", integrator="", step_control="", step_angle=math.nan, cost_flat_ratio=0.1) for item in (row, refined_row)]
+    table_values = {"model": "schwarzschild_table", "integrator": "", "step_control": "", "step_angle": math.nan, "cost_flat_ratio": 0.1}
+    closed = [replace(item, **table_values) for item in (row, refined_row)]
     section = page.refined_section([*rows, *closed], [near]).splitlines()[-1]
     assert section.startswith("| a0_near | schwarzschild_table | – |") and section.count("(") == 6, "each figure has its fellow"
     widths: dict[int, int] = {}
@@ -279,7 +280,8 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
 
 
 def test_the_plans_choice_is_found_by_its_own_step_setting(row: measure.Row, refined_row: measure.Row, near: ChartScene) -> None:
-    stated = near.scene.with_values({"rays.model": "kerr", "rays.integrator": "rk4", "rays.step_control": "mino", "rays.step_angle": 0.2, "rays.step_length": 0.1})
+    method = {"rays.model": "kerr", "rays.integrator": "rk4", "rays.step_control": "mino"}
+    stated = near.scene.with_values({**method, "rays.step_angle": 0.2, "rays.step_length": 0.1})
     assert not run._is_method_of(row, stated)
     assert run._is_method_of(row, stated.with_values({"rays.step_angle": 0.1}))
     assert not run._is_method_of(refined_row, stated.with_values({"rays.step_angle": 0.1}))
@@ -308,9 +310,8 @@ class _AtOnce:
         return done
 
 
-def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(live, "_worker", _AtOnce)
-    measured = live.Live(presets.load(["kerr"]))
+def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer) -> None:
+    measured = live.Live(presets.load(["kerr"]), _AtOnce())
     assert measured.busy and measured.waiting and not measured.points
     for _ in range(200):
         measured.advance(renderer)
@@ -332,7 +333,7 @@ def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer, monkeypat
 
 
 def test_the_live_chart_of_art_says_that_there_is_no_truth() -> None:
-    measured = live.Live(presets.load(["gargantua_s1"]))
+    measured = live.Live(presets.load(["gargantua_s1"]), _AtOnce())
     assert "no truth" in measured.failure and not measured.busy
 
 

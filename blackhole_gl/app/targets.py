@@ -1,0 +1,131 @@
+"""What pictures are drawn into: a texture that is shown and a spare one, or the window at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from ..scene import Scene
+from .area import Area
+
+# The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
+_VERTEX = """#version 330 core
+out vec2 place;
+void main() { place = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2); gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0); }
+"""
+_FRAGMENT = """#version 330 core
+uniform sampler2D picture;
+in vec2 place;
+out vec4 colour;
+void main() { colour = texture(picture, place); }
+"""
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What a picture is drawn of: the scene, its time in r_s/c, and the picture's (width, height). `progressive` only says how, so drawings that
+    differ in nothing else are equal."""
+
+    scene: Scene
+    time: float
+    size: tuple[int, int]
+    progressive: bool = field(compare=False)
+
+
+class Targets:
+    """Has pictures drawn, keeps the last good one, and brings it into the window.
+
+    A picture that the next frame replaces is drawn into the window at once, where it is as large as its area: llvmpipe takes a tenth of the frame for
+    the copy. Should the next one fail, it is drawn again, into the texture.
+
+    Args:
+        gl: the window's context.
+        renderer: what makes pictures; see ``render.frame.Renderer``.
+    """
+
+    def __init__(self, gl: moderngl.Context, renderer: Any):
+        self._gl = gl
+        self._renderer = renderer
+        self._triangle = gl.vertex_array(gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT), [])
+        self._shown: moderngl.Framebuffer | None = None
+        self._spare: moderngl.Framebuffer | None = None
+        self._in_window: Drawing | None = None  # the last picture, where only the window has it
+        self._is_there = False  # that, in this frame
+
+    def begin_frame(self) -> None:
+        """The window holds nothing yet of what it is to show."""
+        self._is_there = False
+
+    def render(self, drawing: Drawing) -> Any:
+        """Draws into the texture; returns the report."""
+        target = self._spare_of(drawing.size)
+        report = self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, measure=True, progressive=drawing.progressive)
+        self._show_spare()
+        return report
+
+    def render_into(self, window: moderngl.Framebuffer, area: Area, drawing: Drawing) -> Any:
+        """Draws into `area` of `window`; returns the report."""
+        self._clear_beside(window, area)
+        report = self._renderer.render(
+            drawing.scene, drawing.time, drawing.size, target=window, viewport=area.viewport, measure=True, progressive=drawing.progressive
+        )
+        self._in_window, self._is_there = drawing, True
+        return report
+
+    def render_finer(self, drawing: Drawing) -> int:
+        """Draws the picture in the texture once more, with one more ray a pixel; returns how many it is the mean of."""
+        samples = self._renderer.render_finer(drawing.scene, drawing.time, drawing.size, target=self._spare_of(drawing.size))
+        self._show_spare()
+        return samples
+
+    def keep(self) -> Any:
+        """Draws the last picture into the texture, if only the window has it. Returns the report; None where nothing was drawn."""
+        return None if self._in_window is None else self.render(self._in_window)
+
+    def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
+        """Fills `area` of `window` with the picture, and the rest with black."""
+        if self._is_there:
+            window.use()
+            return
+        self._clear_beside(window, area)
+        if self._shown is None or area.is_empty:
+            return
+        texture = self._shown.color_attachments[0]
+        # Smooth only where it is enlarged: pixel for pixel it looks the same, for less.
+        filtering = moderngl.NEAREST if texture.size == area.size else moderngl.LINEAR
+        texture.filter = (filtering, filtering)
+        self._gl.viewport = area.viewport
+        texture.use(0)
+        self._triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def read_rgb8(self) -> np.ndarray:
+        """The picture in the texture as uint8 (height, width, 3), top row first."""
+        width, height = self._shown.size
+        data = np.frombuffer(self._shown.read(components=3, alignment=1), np.uint8)
+        return data.reshape(height, width, 3)[::-1]
+
+    def _show_spare(self) -> None:
+        self._shown, self._spare = self._spare, self._shown
+        self._in_window = None
+
+    def _spare_of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+        """What the next picture goes into. The one shown is left alone: should rendering fail, it is the last good one."""
+        if self._spare is None or self._spare.size != size:
+            if self._spare is not None:
+                self._spare.color_attachments[0].release()
+                self._spare.release()
+            texture = self._gl.texture(size, 4)
+            texture.repeat_x = texture.repeat_y = False
+            self._spare = self._gl.framebuffer([texture])
+        return self._spare
+
+    def _clear_beside(self, window: moderngl.Framebuffer, area: Area) -> None:
+        """Makes `window` black, unless the picture will fill it."""
+        window.use()
+        self._gl.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._gl.scissor = None
+        if self._shown is None or area.size != window.size:
+            window.clear()
