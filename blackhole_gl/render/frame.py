@@ -258,7 +258,7 @@ class Renderer:
             else:
                 self._buffers[block.name].write(data)
             self._buffers[block.name].bind_to_uniform_block(block.binding)
-        return packed[uniforms.RAY_BLOCK.name]
+        return packed[uniforms.ray_block().name]
 
     def _radiance_array(self) -> np.ndarray:
         width, height = self._radiance.size

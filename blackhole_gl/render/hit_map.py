@@ -16,8 +16,8 @@ from ..physics.observer import cos_sin_deg
 from ..plan import REFINE_STEP, RayPlan
 from ..scene import Scene
 from . import refinement
-from .programs import Programs, bind_samplers, draw
-from .ray_tables import RayTables
+from .programs import RAY_SLOTS, Programs, bind_samplers, chosen, draw
+from .tables import Tables
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
@@ -47,7 +47,7 @@ class HitMap:
 
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
-        tables: what closed ray models look up.
+        tables: what rays are traced with.
         traces: how many times rays have been traced, for tests and the overlay.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
     """
@@ -57,7 +57,7 @@ class HitMap:
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
         self.sharpened = False
-        self.tables = RayTables(ctx)
+        self.tables = Tables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
@@ -87,7 +87,7 @@ class HitMap:
         self.sharpened = refined and held and not self.is_sharp
         if held and self.is_sharp:
             return False
-        self.tables.bind(triangle.program, scene)
+        self.tables.bind(triangle.program, chosen(scene, ray_plan, *RAY_SLOTS), scene)
         self._make_targets(size, ray_plan.orders)
         if not refined:
             self._trace_rows(triangle, 0, size[1])
@@ -168,7 +168,7 @@ class HitMap:
         triangle = self._programs.get("trace.frag", scene, ray_plan, {"RAYS_LISTED": 1})
         triangle.program["listed_rays"].value = 0
         rays.use(0)
-        self.tables.bind(triangle.program, scene)
+        self.tables.bind(triangle.program, chosen(scene, ray_plan, *RAY_SLOTS), scene)
         self._key, self._azimuth_deg = None, scene.camera.azimuth_deg
         self._make_targets((width, height), ray_plan.orders)
         self._target.use()

@@ -22,6 +22,9 @@ from . import uniforms
 MOST_KEPT = 64
 """Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as drivers keep what they compiled on disk."""
 
+RAY_SLOTS = ("ray_model", "integrator", "step_control")
+SHADE_SLOTS = ("disk_layer", "sky")
+
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
 
@@ -108,7 +111,8 @@ class Programs:
     def _structure(self, scene: Scene, ray_plan: RayPlan) -> _Structure:
         """A frame asks for several programs with the same two objects: worked out once. One that is as before is the same object, found by its identity."""
         if self._asked is None or self._asked[0] is not scene or self._asked[1] is not ray_plan:
-            found = _Structure(tuple(_chosen(scene, ray_plan).items()), tuple(uniforms.switches(scene, ray_plan).items()))
+            paths = ((slot, tuple(plug_in.path for plug_in in chosen(scene, ray_plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS))
+            found = _Structure(tuple(paths), tuple(uniforms.switches(scene, ray_plan).items()))
             same = self._asked is not None and self._asked[2] == found
             self._asked = scene, ray_plan, self._asked[2] if same else found
         return self._asked[2]
@@ -143,10 +147,10 @@ class Programs:
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
 
 
-def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture]) -> None:
-    """Binds those of `samplers` (name → texture) that `program` uses, to texture units 0, 1, …"""
+def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture], first: int = 0) -> None:
+    """Binds those of `samplers` (name → texture) that `program` uses, to texture units from `first` on."""
     used = [name for name in samplers if name in program]
-    for unit, name in enumerate(used):
+    for unit, name in enumerate(used, first):
         samplers[name].use(unit)
         program[name].value = unit
 
@@ -162,13 +166,15 @@ def _release(triangle: moderngl.VertexArray) -> None:
     program.release()
 
 
-def _chosen(scene: Scene, ray_plan: RayPlan) -> dict[str, tuple[str, ...]]:
-    """Slot → paths of the plug-ins that the scene and its plan use."""
-    layers = [p.path for p in catalogue.plug_ins("disk_layer").values() if scene.get(f"disk.{p.key}")]
-    return {
-        "ray_model": (ray_plan.model.path,),
-        "integrator": (ray_plan.integrator.path,) if ray_plan.integrator else (),
-        "step_control": (ray_plan.step_control.path,) if ray_plan.step_control else (),
-        "disk_layer": tuple(layers) if ray_plan.orders else (),
-        "sky": (catalogue.plug_ins("sky")[scene.sky.model].path,) if scene.sky.enabled else (),
-    }
+def chosen(scene: Scene, ray_plan: RayPlan, *slots: str) -> list[catalogue.PlugIn]:
+    """The plug-ins of `slots` that `scene` and its plan use, in the order of `slots`."""
+    rays = {"ray_model": ray_plan.model, "integrator": ray_plan.integrator, "step_control": ray_plan.step_control}
+    found: list[catalogue.PlugIn] = []
+    for slot in slots:
+        if slot in rays:
+            found += [rays[slot]] if rays[slot] else []
+        elif slot == "disk_layer":
+            found += [layer for layer in catalogue.plug_ins(slot).values() if ray_plan.orders and scene.get(f"disk.{layer.key}")]
+        else:
+            found += [catalogue.plug_ins("sky")[scene.sky.model]] if scene.sky.enabled else []
+    return found

@@ -1,6 +1,6 @@
 """The uniform blocks: what a ray depends on, what shading depends on, and every number of the scene.
 
-`RAY_BLOCK` and the scene's ``hole`` and ``rays`` numbers are all that the hits depend on; its bytes are part of the hit map's key.
+`ray_block` and the scene's ``hole`` and ``rays`` numbers are all that the hits depend on; its bytes are part of the hit map's key.
 """
 
 from __future__ import annotations
@@ -11,46 +11,68 @@ from functools import cache
 
 from .. import plan
 from ..glsl.blocks import Block
-from ..physics import observer, orbit_table, relativity, shear
-from ..scene import Scene, fields
+from ..physics import observer, relativity, shear
+from ..scene import Scene, catalogue, fields
+from ..scene.tables import Number
 
-RAY_BLOCK = Block(
-    "RayBlock",
-    0,
-    (
-        ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
-        ("camera_n", "vec4"),  # from the hole to the camera, in the frame of its meridian (x, z); w: sine of the inclination
-        ("camera_e_theta", "vec4"),
-        ("camera_e_phi", "vec4"),
-        ("picture_size", "vec2"),  # pixels of the whole picture
-        ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
-        ("orbit_factors", "vec2"),  # from angular momentum to the coordinate of orbit_table.py
-        ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
-        ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
-        ("camera_w", "float"),  # M/r, 0 at infinity
-        ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
-        ("crossing_r_min", "float"),  # r_s
-        ("march_bound", "float"),  # r_s
-        ("plan_step_length", "float"),  # r_s
-        ("plan_step_angle", "float"),  # rad
-        ("plan_max_steps", "int"),
-    ),
+_RAY_MEMBERS = (
+    ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
+    ("camera_n", "vec4"),  # from the hole to the camera, in the frame of its meridian (x, z); w: sine of the inclination
+    ("camera_e_theta", "vec4"),
+    ("camera_e_phi", "vec4"),
+    ("picture_size", "vec2"),  # pixels of the whole picture
+    ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+    ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
+    ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
+    ("camera_w", "float"),  # M/r, 0 at infinity
+    ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
+    ("crossing_r_min", "float"),  # r_s
+    ("march_bound", "float"),  # r_s
+    ("plan_step_length", "float"),  # r_s
+    ("plan_step_angle", "float"),  # rad
+    ("plan_max_steps", "int"),
 )
 
-SHADE_BLOCK = Block(
-    "ShadeBlock",
-    1,
-    (
-        ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
-        ("shear_seed", "vec4"),
-        ("camera_heading", "vec2"),  # (cos, sin) of the camera's azimuth: turns hits from its meridian's frame to the world
-        ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
-        ("disk_r_in", "float"),  # r_s, as used
-        ("disk_r_out", "float"),
-        ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
-        ("hole_spin_complement", "float"),  # 1 − |a*|
-    ),
+_SHADE_MEMBERS = (
+    ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
+    ("shear_seed", "vec4"),
+    ("camera_heading", "vec2"),  # (cos, sin) of the camera's azimuth: turns hits from its meridian's frame to the world
+    ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
+    ("disk_r_in", "float"),  # r_s, as used
+    ("disk_r_out", "float"),
+    ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
+    ("hole_spin_complement", "float"),  # 1 − |a*|
 )
+
+
+@cache
+def ray_block() -> Block:
+    """What a ray depends on: numbers of ours, and those that the plug-ins of rays declare."""
+    return Block("RayBlock", 0, (*_RAY_MEMBERS, *((number.name, number.type) for number in _numbers(True))))
+
+
+@cache
+def shade_block() -> Block:
+    """What shading depends on: numbers of ours, and those that the other plug-ins declare."""
+    return Block("ShadeBlock", 1, (*_SHADE_MEMBERS, *((number.name, number.type) for number in _numbers(False))))
+
+
+@cache
+def _numbers(of_rays: bool) -> tuple[Number, ...]:
+    """What plug-ins declare for rays, or for shading alone; each once, as several may ask for the same.
+
+    Raises:
+        CatalogueError: a name means two things.
+    """
+    ours = {name for name, _ in (*_RAY_MEMBERS, *_SHADE_MEMBERS)}
+    found: dict[str, tuple[Number, bool]] = {}
+    for key, slot in catalogue.SLOTS.items():
+        for number in (number for plug_in in catalogue.plug_ins(key).values() for number in plug_in.numbers):
+            known, for_rays = found.get(number.name, (number, False))
+            if number.name in ours or known != number:
+                raise catalogue.CatalogueError(f"{number.place}: this name has another meaning already; the number needs a name of its own")
+            found[number.name] = number, for_rays or slot.section == "rays"
+    return tuple(number for number, for_rays in found.values() if for_rays == of_rays)
 
 
 @cache
@@ -67,11 +89,11 @@ def _number_names() -> tuple[tuple[str, str], ...]:
 
 def blocks() -> tuple[Block, ...]:
     """All uniform blocks."""
-    return RAY_BLOCK, SHADE_BLOCK, scene_block()
+    return ray_block(), shade_block(), scene_block()
 
 
 def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
-    """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64.
+    """Values of `ray_block` for a picture of `size` (width, height) pixels, all worked out in float64.
 
     Every space-time here is symmetric about the spin axis: rays are those of a camera at azimuth 0, whatever its azimuth is, so that a
     camera turned about the axis keeps its hits.
@@ -90,7 +112,6 @@ def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offs
         camera_e_phi=(*seen.e_phi, 0.0),
         picture_size=size,
         picture_offset=offset,
-        orbit_factors=orbit_table.coordinate_factors(scene.camera.distance),
         hole_w_factors=(2.0 * r_plus, 2.0 * float(relativity.inner_horizon_radius(spin))),
         picture_scale=half_height / size[1],
         camera_w=seen.w,
@@ -100,11 +121,12 @@ def ray_values(scene: Scene, ray_plan: plan.RayPlan, size: tuple[int, int], offs
         plan_step_length=ray_plan.step_length,
         plan_step_angle=ray_plan.step_angle,
         plan_max_steps=ray_plan.max_steps,
+        **_declared(scene, of_rays=True),
     )
 
 
 def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
-    """Values of `SHADE_BLOCK` at scene time `time` (r_s/c)."""
+    """Values of `shade_block` at scene time `time` (r_s/c)."""
     spin = observer.effective_spin(scene)
     inner, outer = plan.effective_disk_radii(scene)
     ages, weights, seeds = shear.shear_phases(time)
@@ -118,7 +140,12 @@ def shade_values(scene: Scene, time: float) -> Mapping[str, object]:
         disk_r_out=outer,
         disk_spin_sign=float(relativity.orbit_sense(spin, scene.disk.orbit)),
         hole_spin_complement=1.0 - abs(spin),
+        **_declared(scene, of_rays=False),
     )
+
+
+def _declared(scene: Scene, *, of_rays: bool) -> dict[str, object]:
+    return {number.name: number.made(number.arguments(scene)) for number in _numbers(of_rays)}
 
 
 def scene_values(scene: Scene) -> dict[str, object]:
@@ -132,14 +159,21 @@ def scene_values(scene: Scene) -> dict[str, object]:
 
 def switches(scene: Scene, ray_plan: plan.RayPlan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": plan.REFINE_STEP}
-    found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
+    found = {"ORDERS": ray_plan.orders, "MARCHED": int(ray_plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0}
+    found |= {"REFINE_STEP": plan.REFINE_STEP, **_constants()}
     for key, name in _switch_names():
         found[name] = int(scene.get(key))
     for key, names in _choice_names():
         value = scene.get(key)
         found.update({name: int(value == option) for option, name in names})
     return found
+
+
+@cache
+def _constants() -> Mapping[str, int]:
+    """What the makers of plug-ins' tables have shaders know of them."""
+    tables = (table for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values() for table in plug_in.tables)
+    return {name: value for table in tables for name, value in table.defines().items()}
 
 
 @cache
@@ -158,8 +192,8 @@ def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
 def as_bytes(scene: Scene, ray_plan: plan.RayPlan, time: float, size: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
     """The packed blocks by name."""
     return {
-        RAY_BLOCK.name: RAY_BLOCK.pack(ray_values(scene, ray_plan, size, offset)),
-        SHADE_BLOCK.name: SHADE_BLOCK.pack(shade_values(scene, time)),
+        ray_block().name: ray_block().pack(ray_values(scene, ray_plan, size, offset)),
+        shade_block().name: shade_block().pack(shade_values(scene, time)),
         scene_block().name: scene_block().pack(scene_values(scene)),
     }
 
