@@ -31,6 +31,8 @@ CELL_BITS = 23 - (CELLS.bit_length() - 1)
 """Bits of a float32 that lie below those that number its cell."""
 FIRST_CELL = (127 + FIRST_OCTAVE) * CELLS
 WIDTH = (LAST_OCTAVE - FIRST_OCTAVE) * CELLS
+CONSTANTS = {"ORBIT_CELL_BITS": CELL_BITS, "ORBIT_FIRST_CELL": FIRST_CELL}
+"""What shaders that read the table know of it."""
 
 _NODES = 0.5 * np.cos(np.pi * (2.0 * np.arange(4) + 1.0) / 8.0)  # Chebyshev's, on −½…½
 _TO_CUBIC = np.linalg.inv(np.vander(_NODES, 4, increasing=True))

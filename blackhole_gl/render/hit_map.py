@@ -17,8 +17,8 @@ from ..plan import REFINE_STEP, Plan
 from . import hit_texels, refinement
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
-from .programs import Draw, Programs
-from .ray_tables import RayTables
+from .programs import RAY_SLOTS, Draw, Programs, chosen
+from .tables import Tables
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
@@ -32,7 +32,7 @@ class HitMap:
 
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
-        tables: what closed ray models look up.
+        tables: what rays are traced with.
         traces: how many times rays have been traced, for tests and the overlay.
         generation: of what the map holds: a number that no other trace of this process has had.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
@@ -44,7 +44,7 @@ class HitMap:
         self.traces = 0
         self.generation = 0
         self.sharpened = False
-        self.tables = RayTables(ctx)
+        self.tables = Tables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
@@ -73,7 +73,7 @@ class HitMap:
         self._traced = inputs
         if held and self.is_sharp:
             return False
-        self.tables.bind(rays.program, plan.scene)
+        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
         self._make_targets(inputs.size, plan.orders)
         if not refined:
             self._trace_rows(rays, 0, inputs.size[1])
@@ -156,7 +156,7 @@ class HitMap:
         rays = self._programs.get("trace.frag", self._traced, {"RAYS_LISTED": 1})
         rays.set(listed_rays=0)
         texture.use(0)
-        self.tables.bind(rays.program, plan.scene)
+        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
         self._key, self.generation = None, next(_GENERATIONS)
         self._make_targets((width, height), plan.orders)
         momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.MOMENTA)]

@@ -50,7 +50,7 @@ class FrameInputs:
     @cached_property
     def ray_bytes(self) -> bytes:
         """The block of what rays depend on: part of the key of hits that are kept."""
-        return self.blocks[uniforms.RAY_BLOCK.name]
+        return self.blocks[uniforms.ray_block().name]
 
 
 class UniformBuffers:

@@ -27,6 +27,9 @@ drivers keep what they compiled on disk."""
 
 _SERIALS = count(1)
 
+RAY_SLOTS = ("ray_model", "integrator", "step_control")
+SHADE_SLOTS = ("disk_layer", "sky")
+
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
 
@@ -95,10 +98,10 @@ class Draw:
         """The program, which takes samplers and loose uniforms."""
         return self.compiled.program
 
-    def sample(self, samplers: Mapping[str, moderngl.Texture]) -> None:
-        """Binds those of `samplers` (name → texture) that the program uses, to texture units 0, 1, …"""
+    def sample(self, samplers: Mapping[str, moderngl.Texture], first: int = 0) -> None:
+        """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
         used = [name for name in samplers if name in self.program]
-        for unit, name in enumerate(used):
+        for unit, name in enumerate(used, first):
             samplers[name].use(unit)
             self.program[name].value = unit
 
@@ -179,7 +182,8 @@ class Programs:
     def _structure(self, plan: Plan) -> _Structure:
         """A frame asks for several programs with the same plan: worked out once. One that is as before is the same object, found by its identity."""
         if self._asked is None or self._asked[0] is not plan:
-            found = _Structure(tuple(_chosen(plan).items()), tuple(uniforms.switches(plan).items()))
+            paths = ((slot, tuple(plug_in.path for plug_in in chosen(plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS))
+            found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()))
             same = self._asked is not None and self._asked[1] == found
             self._asked = plan, self._asked[1] if same else found
         return self._asked[1]
@@ -214,14 +218,16 @@ class Programs:
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
 
 
-def _chosen(plan: Plan) -> dict[str, tuple[str, ...]]:
-    """Slot → paths of the plug-ins that the plan and its scene use."""
+def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
+    """The plug-ins of `slots` that the plan and its scene use, in the order of `slots`."""
     scene = plan.scene
-    layers = [p.path for p in catalogue.plug_ins("disk_layer").values() if scene.get(f"disk.{p.key}")]
-    return {
-        "ray_model": (plan.model.path,),
-        "integrator": (plan.integrator.path,) if plan.integrator else (),
-        "step_control": (plan.step_control.path,) if plan.step_control else (),
-        "disk_layer": tuple(layers) if plan.orders else (),
-        "sky": (catalogue.plug_ins("sky")[scene.sky.model].path,) if scene.sky.enabled else (),
-    }
+    rays = {"ray_model": plan.model, "integrator": plan.integrator, "step_control": plan.step_control}
+    found: list[catalogue.PlugIn] = []
+    for slot in slots:
+        if slot in rays:
+            found += [rays[slot]] if rays[slot] else []
+        elif slot == "disk_layer":
+            found += [layer for layer in catalogue.plug_ins(slot).values() if plan.orders and scene.get(f"disk.{layer.key}")]
+        else:
+            found += [catalogue.plug_ins("sky")[scene.sky.model]] if scene.sky.enabled else []
+    return found

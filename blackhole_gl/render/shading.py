@@ -8,11 +8,10 @@ import numpy as np
 from ..glsl.declared import PixelClass
 from ..physics import disk_profile
 from ..plan import Plan
-from ..resources import assets_dir
-from . import star_cells
 from .hit_map import HitMap
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import SHADE_SLOTS, Draw, Programs, chosen
+from .tables import Tables
 
 # Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
 _DISK, _SKY, _FLAT_SKY = PixelClass.DISK.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
@@ -28,13 +27,12 @@ class ShadePass:
     shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are, and from its second frame on the
     disk is drawn within its bounds alone; a refined hit map brings a sorting of its own (shaders/refine_classes.frag).
 
-    Raises:
-        FileNotFoundError: a table is missing from assets/.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
-        self._tables = {"galaxy_band": _galaxy_band(ctx), "star_cells": _star_cells(ctx)}
+        self._tables = Tables(ctx)
+        self._profile: moderngl.Texture | None = None
         self._profile_key: tuple | None = None
         self._depth: moderngl.Texture | None = None
         self._classes: moderngl.Framebuffer | None = None
@@ -96,14 +94,16 @@ class ShadePass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for texture in self._tables.values():
-            texture.release()
-        self._tables, self._profile_key = {}, None
+        self._tables.release()
+        if self._profile is not None:
+            self._profile.release()
+        self._profile, self._profile_key = None, None
         self._release_classes()
 
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
-        prepared.sample({**hit_map.samplers(), **self._tables})
+        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
+        prepared.sample({**hit_map.samplers(), **declared, "temperature_profile": self._profile})
         return prepared
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
@@ -157,9 +157,9 @@ class ShadePass:
         if key == self._profile_key:
             return
         values = disk_profile.table(*key)
-        if "temperature_profile" not in self._tables:
-            self._tables["temperature_profile"] = _row(self._ctx, values[:, None])
-        self._tables["temperature_profile"].write(values.tobytes())
+        if self._profile is None:
+            self._profile = _row(self._ctx, values[:, None])
+        self._profile.write(values.tobytes())
         self._profile_key = key
 
 
@@ -178,22 +178,4 @@ def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
     texture = ctx.texture((len(values), 1), values.shape[1], np.ascontiguousarray(values, np.float32).tobytes(), dtype="f4", alignment=4)
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def _star_cells(ctx: moderngl.Context) -> moderngl.Texture:
-    cells = star_cells.table()
-    texture = ctx.texture((cells.shape[1], cells.shape[0]), 4, cells.tobytes(), dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def _galaxy_band(ctx: moderngl.Context) -> moderngl.Texture:
-    with np.load(assets_dir() / "galaxy_band.npz") as stored:
-        root = np.ascontiguousarray(stored["root"])
-    texture = ctx.texture((root.shape[1], root.shape[0]), 3, root.tobytes(), alignment=1)
-    texture.build_mipmaps()
-    texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-    texture.repeat_x, texture.repeat_y = True, False
     return texture

@@ -1,6 +1,6 @@
 """The uniform blocks: what a ray depends on, what shading depends on, and every number of the scene.
 
-`RAY_BLOCK` and the scene's ``hole`` and ``rays`` numbers are all that the hits depend on; its bytes are part of the hit map's key.
+`ray_block` and the scene's ``hole`` and ``rays`` numbers are all that the hits depend on; its bytes are part of the hit map's key.
 """
 
 from __future__ import annotations
@@ -11,51 +11,73 @@ from functools import cache
 
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
-from ..physics import observer, orbit_table, shear
+from ..physics import observer, shear
 from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
-from ..scene import fields
+from ..scene import catalogue, fields
+from ..scene.tables import Number
 
-RAY_BLOCK = Block(
-    "RayBlock",
-    0,
-    (
-        ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
-        ("camera_n", "vec4"),  # from the hole to the camera, in the plan's frame; w: sine of the inclination
-        ("camera_e_theta", "vec4"),
-        ("camera_e_phi", "vec4"),
-        ("view_back", "vec4"),  # world axes of the view, as camera_n, e_θ and e_φ for a camera that looks at the hole
-        ("view_down", "vec4"),
-        ("view_right", "vec4"),
-        ("picture_size", "vec2"),  # pixels of the whole picture
-        ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
-        ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
-        ("orbit_factors", "vec2"),  # from angular momentum to the coordinate of orbit_table.py
-        ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
-        ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
-        ("camera_w", "float"),  # M/r, 0 at infinity
-        ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
-        ("crossing_r_min", "float"),  # r_s
-        ("march_bound", "float"),  # r_s
-        ("plan_step_length", "float"),  # r_s
-        ("plan_step_angle", "float"),  # rad
-        ("plan_max_steps", "int"),
-    ),
+_RAY_MEMBERS = (
+    ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
+    ("camera_n", "vec4"),  # from the hole to the camera, in the plan's frame; w: sine of the inclination
+    ("camera_e_theta", "vec4"),
+    ("camera_e_phi", "vec4"),
+    ("view_back", "vec4"),  # world axes of the view, as camera_n, e_θ and e_φ for a camera that looks at the hole
+    ("view_down", "vec4"),
+    ("view_right", "vec4"),
+    ("picture_size", "vec2"),  # pixels of the whole picture
+    ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+    ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
+    ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
+    ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
+    ("camera_w", "float"),  # M/r, 0 at infinity
+    ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
+    ("crossing_r_min", "float"),  # r_s
+    ("march_bound", "float"),  # r_s
+    ("plan_step_length", "float"),  # r_s
+    ("plan_step_angle", "float"),  # rad
+    ("plan_max_steps", "int"),
 )
 
-SHADE_BLOCK = Block(
-    "ShadeBlock",
-    1,
-    (
-        ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
-        ("shear_seed", "vec4"),
-        ("camera_heading", "vec2"),  # (cos, sin) of the angle that turns hits from the plan's frame to the world
-        ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
-        ("disk_r_in", "float"),  # r_s, as used
-        ("disk_r_out", "float"),
-        ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
-        ("hole_spin_complement", "float"),  # 1 − |a*|
-    ),
+_SHADE_MEMBERS = (
+    ("shear_phase", "vec4"),  # ages and weights of the two patterns, r_s/c; see shear.py
+    ("shear_seed", "vec4"),
+    ("camera_heading", "vec2"),  # (cos, sin) of the angle that turns hits from the plan's frame to the world
+    ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
+    ("disk_r_in", "float"),  # r_s, as used
+    ("disk_r_out", "float"),
+    ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
+    ("hole_spin_complement", "float"),  # 1 − |a*|
 )
+
+
+@cache
+def ray_block() -> Block:
+    """What a ray depends on: numbers of ours, and those that the plug-ins of rays declare."""
+    return Block("RayBlock", 0, (*_RAY_MEMBERS, *((number.name, number.type) for number in _numbers(True))))
+
+
+@cache
+def shade_block() -> Block:
+    """What shading depends on: numbers of ours, and those that the other plug-ins declare."""
+    return Block("ShadeBlock", 1, (*_SHADE_MEMBERS, *((number.name, number.type) for number in _numbers(False))))
+
+
+@cache
+def _numbers(of_rays: bool) -> tuple[Number, ...]:
+    """What plug-ins declare for rays, or for shading alone; each once, as several may ask for the same.
+
+    Raises:
+        CatalogueError: a name means two things.
+    """
+    ours = {name for name, _ in (*_RAY_MEMBERS, *_SHADE_MEMBERS)}
+    found: dict[str, tuple[Number, bool]] = {}
+    for key, slot in catalogue.SLOTS.items():
+        for number in (number for plug_in in catalogue.plug_ins(key).values() for number in plug_in.numbers):
+            known, for_rays = found.get(number.name, (number, False))
+            if number.name in ours or known != number:
+                raise catalogue.CatalogueError(f"{number.place}: this name has another meaning already; the number needs a name of its own")
+            found[number.name] = number, for_rays or slot.section == "rays"
+    return tuple(number for number, for_rays in found.values() if for_rays == of_rays)
 
 
 @cache
@@ -72,11 +94,11 @@ def _number_names() -> tuple[tuple[str, str], ...]:
 
 def blocks() -> tuple[Block, ...]:
     """All uniform blocks."""
-    return RAY_BLOCK, SHADE_BLOCK, scene_block()
+    return ray_block(), shade_block(), scene_block()
 
 
 def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
-    """Values of `RAY_BLOCK` for a picture of `size` (width, height) pixels, all worked out in float64, in the plan's frame.
+    """Values of `ray_block` for a picture of `size` (width, height) pixels, all worked out in float64, in the plan's frame.
 
     Raises:
         ValueError: the camera is inside the horizon, or looks where it cannot.
@@ -98,7 +120,6 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         picture_size=size,
         picture_offset=offset,
         picture_hole=(0.5 * size[0] + 0.5 * right / picture_scale, 0.5 * size[1] + 0.5 * up / picture_scale),
-        orbit_factors=orbit_table.coordinate_factors(scene.camera.distance),
         hole_w_factors=(2.0 * where.horizon_radius, 2.0 * where.inner_horizon_radius),
         picture_scale=picture_scale,
         camera_w=seen.w,
@@ -108,11 +129,12 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         plan_step_length=plan.step_length,
         plan_step_angle=plan.step_angle,
         plan_max_steps=plan.max_steps,
+        **_declared(scene, of_rays=True),
     )
 
 
 def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
-    """Values of `SHADE_BLOCK` at scene time `time` (r_s/c)."""
+    """Values of `shade_block` at scene time `time` (r_s/c)."""
     scene = plan.scene
     ages, weights, seeds = shear.shear_phases(time)
     clear = min(max(1.0 - scene.disk.opacity, 1e-3), 0.999)
@@ -125,7 +147,12 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
         disk_r_out=plan.disk_outer,
         disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
         hole_spin_complement=1.0 - abs(plan.space_time.spin),
+        **_declared(scene, of_rays=False),
     )
+
+
+def _declared(scene: Scene, *, of_rays: bool) -> dict[str, object]:
+    return {number.name: number.made(number.arguments(scene)) for number in _numbers(of_rays)}
 
 
 def scene_values(plan: Plan) -> dict[str, object]:
@@ -140,14 +167,20 @@ def scene_values(plan: Plan) -> dict[str, object]:
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": REFINE_STEP}
-    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines()}
-    found |= {"ORBIT_CELL_BITS": orbit_table.CELL_BITS, "ORBIT_FIRST_CELL": orbit_table.FIRST_CELL}
+    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key))
     for key, names in _choice_names():
         value = plan.scene.get(key)
         found.update({name: int(value == option) for option, name in names})
     return found
+
+
+@cache
+def _constants() -> Mapping[str, int]:
+    """What the makers of plug-ins' tables have shaders know of them."""
+    tables = (table for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values() for table in plug_in.tables)
+    return {name: value for table in tables for name, value in table.defines().items()}
 
 
 @cache
@@ -166,7 +199,7 @@ def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
 def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
     """The packed blocks by name, for a `picture` of so many pixels of which the part from `offset` on is drawn."""
     return {
-        RAY_BLOCK.name: RAY_BLOCK.pack(ray_values(plan, picture, offset)),
-        SHADE_BLOCK.name: SHADE_BLOCK.pack(shade_values(plan, time)),
+        ray_block().name: ray_block().pack(ray_values(plan, picture, offset)),
+        shade_block().name: shade_block().pack(shade_values(plan, time)),
         scene_block().name: scene_block().pack(scene_values(plan)),
     }

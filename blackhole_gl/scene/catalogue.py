@@ -15,6 +15,7 @@ from ..resources import shaders_dir
 from . import headers
 from .headers import CatalogueError
 from .schema import Field, nearest
+from .tables import Number, Table
 from .traits import IntegratorTraits, NoTraits, RayModelTraits, StepControlTraits, Traits
 
 
@@ -40,6 +41,8 @@ SLOTS: Mapping[str, Slot] = {
     "disk_layer": Slot("disks", "disk"),
     "sky": Slot("skies", "sky"),
 }
+
+_DECLARED = ("parameters", "tables", "numbers")
 
 T = TypeVar("T", bound=Traits)
 
@@ -67,6 +70,8 @@ class PlugIn(Generic[T]):
         rank: its place in lists, smallest first.
         traits: what else its header says, a record of its slot.
         parameters: its scene fields, by dotted key.
+        tables: the textures it looks things up in.
+        numbers: what it has worked out for every frame.
     """
 
     key: str
@@ -78,6 +83,8 @@ class PlugIn(Generic[T]):
     rank: float
     traits: T
     parameters: Mapping[str, Field] = field(default_factory=dict)
+    tables: tuple[Table, ...] = ()
+    numbers: tuple[Number, ...] = ()
 
 
 @overload
@@ -136,17 +143,36 @@ def _read(path: Path, slot: str) -> PlugIn[Any]:
     header = headers.read_header(path.read_text(encoding="utf-8"), path.name)
     place, kind = SLOTS[slot], SLOTS[slot].traits
     of_all, of_slot = headers.entry_names(_About), headers.entry_names(kind)
-    headers.refuse_unknown(header, (*of_all, *of_slot, "parameters"), path.name)
+    headers.refuse_unknown(header, (*of_all, *of_slot, *_DECLARED), path.name)
     about = headers.record(_About, {name: entry for name, entry in header.items() if name in of_all}, path.name)
     if about.slot != slot:
         raise CatalogueError(f"{path.name}: slot is {about.slot!r}, but its folder holds {slot!r}")
     traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, path.name)
     if isinstance(traits, RayModelTraits):
         _refuse_unknown_control(traits, path.name)
-    declared = headers.table(header.get("parameters", {}), f"{path.name}: parameters")
-    parameters = [_parameter(f"{place.section}.{path.stem}.{name}", entry, path.name) for name, entry in declared.items()]
-    relative = path.relative_to(shaders_dir()).as_posix()
-    return PlugIn(path.stem, slot, relative, about.label, about.summary, about.source, about.rank, traits, {p.key: p for p in parameters})
+    declared = {part: _declared(header, part, path.name) for part in _DECLARED}
+    parameters = [_parameter(f"{place.section}.{path.stem}.{name}", entry, path.name) for name, entry in declared["parameters"].items()]
+    return PlugIn(
+        path.stem,
+        slot,
+        path.relative_to(shaders_dir()).as_posix(),
+        about.label,
+        about.summary,
+        about.source,
+        about.rank,
+        traits,
+        {parameter.key: parameter for parameter in parameters},
+        *(
+            tuple(headers.record(kind, entries, f"{path.name}: {name}", name=name, file=path.name) for name, entries in declared[part].items())
+            for part, kind in (("tables", Table), ("numbers", Number))
+        ),
+    )
+
+
+def _declared(header: Mapping[str, Any], part: str, file: str) -> Mapping[str, Mapping[str, Any]]:
+    """The tables below ``[parameters]``, ``[tables]`` or ``[numbers]``, by name."""
+    entries = headers.table(header.get(part, {}), f"{file}: {part}")
+    return {name: headers.table(entry, f"{file}: {part}.{name}") for name, entry in entries.items()}
 
 
 def _refuse_unknown_control(traits: RayModelTraits, file: str) -> None:

@@ -43,22 +43,23 @@ def read_header(text: str, name: str) -> dict[str, Any]:
         raise CatalogueError(f"{name}: the header is not TOML: {error}") from None
 
 
-def record(kind: type[T], entries: Mapping[str, Any], place: str) -> T:
+def record(kind: type[T], entries: Mapping[str, Any], place: str, **known: Any) -> T:
     """The frozen record of class `kind` that `entries` say; a class may refuse them as a whole with a ValueError.
 
     Args:
         place: what errors begin with, e.g. ``kerr.glsl``.
+        known: values that the header does not say.
 
     Raises:
         CatalogueError: an entry is missing, unknown, or not of the kind that the class's annotation says.
     """
-    refuse_unknown(entries, entry_names(kind), place)
+    refuse_unknown(entries, (name for name in entry_names(kind) if name not in known), place)
     hints = get_type_hints(kind, include_extras=True)
-    values = {}
+    values = dict(known)
     for field in dataclasses.fields(kind):
         if field.name in entries:
             values[field.name] = _checked(hints[field.name], entries[field.name], f"{place}: {field.name}")
-        elif field.default is dataclasses.MISSING:
+        elif field.default is dataclasses.MISSING and field.name not in known:
             raise CatalogueError(f"{place}: the header lacks {field.name!r}; allowed is {_allowed(hints[field.name])}")
     try:
         return kind(**values)

@@ -9,10 +9,20 @@ space_time = "schwarzschild"
 spins = false
 exact = true
 twin = "schwarzschild"
+
+[tables.orbit_table]
+make = "blackhole_gl.physics.orbit_table:table"
+of = ["camera.distance"]
+constants = "blackhole_gl.physics.orbit_table:CONSTANTS"
+
+[numbers.orbit_factors]  # from angular momentum to the table's coordinate
+make = "blackhole_gl.physics.orbit_table:coordinate_factors"
+of = ["camera.distance"]
+type = "vec2"
 ---*/
 #include "common/orbit_from_centre.glsl"
 
-uniform sampler2D orbit_table;  // blackhole_gl/physics/orbit_table.py
+uniform sampler2D orbit_table;
 
 // The angle swept to the ray's end; `ratio` = tan(ψ/2)/tan(ψ_c/2) is above 1 for a ray that escapes.
 float swept_angle(float ratio) {

@@ -26,6 +26,14 @@ help = "Angular radius of a star where pixels are smaller than that: under high 
 [parameters.frequency_shift]
 default = true
 help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
+
+[tables.galaxy_band]
+make = "blackhole_gl.render.galaxy_band:table"
+filter = "mipmap"
+repeat_x = true
+
+[tables.star_cells]
+make = "blackhole_gl.render.star_cells:table"
 ---*/
 #include "common/colour.glsl"
 #include "common/rotation.glsl"

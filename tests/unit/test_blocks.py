@@ -40,7 +40,7 @@ def test_a_missing_member_is_an_error():
 
 def test_the_driver_agrees_about_every_offset(ctx):
     """Each member of each block, read back through a shader: the one test of std140 that counts."""
-    for block in (uniforms.RAY_BLOCK, uniforms.SHADE_BLOCK, uniforms.scene_block()):
+    for block in (uniforms.ray_block(), uniforms.shade_block(), uniforms.scene_block()):
         rng = np.random.default_rng(1)
         values, reads, expected = {}, [], []
         for name, kind in block.members:

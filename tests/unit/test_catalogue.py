@@ -164,3 +164,19 @@ def test_an_integrator_for_one_way_to_march_keeps_to_it(monkeypatch):
     monkeypatch.setattr(catalogue, "_plug_ins", {"integrator": {"rk4": narrow}, **others}.get)
     assert catalogue.reasons_against("schwarzschild", "rk4", "radius") == []
     assert catalogue.reasons_against("kerr", "rk4", "mino") == ["rk4 fits models that march in cartesian; kerr marches in mino"]
+
+
+@pytest.mark.parametrize(
+    "more, words",
+    [
+        ("[tables]\nhue = 3", "ripple.glsl: tables.hue: got 3; allowed is a table"),
+        ("[tables.hue]", "ripple.glsl: hue: the header lacks 'make'; allowed is text in quotes"),
+        ('[tables.hue]\nmake = "a:b"\nfilter = "liner"', "ripple.glsl: hue: filter: got 'liner'; allowed is one of .*, mipmap; did you mean linear"),
+        ('[tables.hue]\nmake = "a:b"\nname = "tint"', "ripple.glsl: hue: got the entry 'name'; allowed are make, of, filter, repeat_x, constants"),
+        ('[numbers.hue]\nmake = "a:b"\ntype = "vec3"', "ripple.glsl: hue: type: got 'vec3'; allowed is one of float, int, vec2, vec4, mat4"),
+    ],
+)
+def test_a_wrong_declaration_of_a_table_names_file_and_entry(tmp_path, monkeypatch, more, words):
+    monkeypatch.setattr(catalogue, "shaders_dir", lambda: tmp_path)
+    with pytest.raises(catalogue.CatalogueError, match=words):
+        made(tmp_path, HEADER.format(more=more))

@@ -1,0 +1,91 @@
+"""The textures that plug-ins declare in their headers: made when what they depend on changes, and only then."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import moderngl
+import numpy as np
+
+from ..scene import Scene
+from ..scene.catalogue import CatalogueError, PlugIn
+from ..scene.tables import Table
+from .programs import Draw
+
+RAY_UNIT = 7
+"""The first texture unit of tables that rays are traced with, above those of all other samplers."""
+
+_DTYPES = {np.dtype(np.uint8): "f1", np.dtype(np.float16): "f2", np.dtype(np.float32): "f4"}
+_FILTERS = {
+    "nearest": (moderngl.NEAREST, moderngl.NEAREST),
+    "linear": (moderngl.LINEAR, moderngl.LINEAR),
+    "mipmap": (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR),
+}
+
+
+class Tables:
+    """The tables of whatever plug-ins are in use.
+
+    Attributes:
+        made: how many tables have been made, for tests.
+    """
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self.made = 0
+        self._kept: dict[Table, tuple[tuple[Any, ...], moderngl.Texture]] = {}
+
+    def of(self, plug_ins: Iterable[PlugIn], scene: Scene) -> dict[str, moderngl.Texture]:
+        """Sampler's name → texture of all tables that `plug_ins` declare, as `scene` wants them.
+
+        Raises:
+            CatalogueError: a header names what is not there, or what makes no table.
+        """
+        return {table.name: self._texture(table, scene) for plug_in in plug_ins for table in plug_in.tables}
+
+    def bind(self, rays: Draw, plug_ins: Iterable[PlugIn]) -> None:
+        """Gives the trace pass `rays` the tables of `plug_ins`."""
+        rays.sample(self.of(plug_ins, rays.inputs.plan.scene), RAY_UNIT)
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for _, texture in self._kept.values():
+            texture.release()
+        self._kept = {}
+
+    def _texture(self, table: Table, scene: Scene) -> moderngl.Texture:
+        arguments = table.arguments(scene)
+        kept = self._kept.get(table)
+        if kept is not None and kept[0] == arguments:
+            return kept[1]
+        texture = _filled(self._ctx, table, _values(table, arguments), kept[1] if kept else None)
+        self._kept[table] = arguments, texture
+        self.made += 1
+        return texture
+
+
+def _values(table: Table, arguments: tuple[Any, ...]) -> np.ndarray:
+    values = table.made(arguments)
+    if not isinstance(values, np.ndarray) or values.ndim != 3 or not 1 <= values.shape[2] <= 4 or values.dtype not in _DTYPES:
+        found = f"{values.dtype} {values.shape}" if isinstance(values, np.ndarray) else type(values).__name__
+        raise CatalogueError(f"{table.place}: {table.make} made {found}; allowed is an array (rows, columns, 1 to 4) of uint8, float16 or float32")
+    return np.ascontiguousarray(values)
+
+
+def _filled(ctx: moderngl.Context, table: Table, values: np.ndarray, old: moderngl.Texture | None) -> moderngl.Texture:
+    """`values` in the texture `old`, or in a new one where it does not fit."""
+    rows, columns, components = values.shape
+    dtype = _DTYPES[values.dtype]
+    if old is not None and (old.size, old.components, old.dtype) == ((columns, rows), components, dtype):
+        texture = old
+        texture.write(values.tobytes(), alignment=1)
+    else:
+        if old is not None:
+            old.release()
+        texture = ctx.texture((columns, rows), components, values.tobytes(), dtype=dtype, alignment=1)
+    if table.filter == "mipmap":
+        texture.build_mipmaps()
+    texture.filter = _FILTERS[table.filter]
+    texture.repeat_x, texture.repeat_y = table.repeat_x, False
+    return texture

@@ -1,0 +1,85 @@
+"""Textures that plug-ins declare: as the header says, made anew when what they depend on changes, errors that name file and entry."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import moderngl
+import numpy as np
+import pytest
+
+from blackhole_gl.physics import orbit_table
+from blackhole_gl.render.tables import Tables
+from blackhole_gl.scene import Scene, catalogue
+from blackhole_gl.scene.catalogue import CatalogueError
+from blackhole_gl.scene.tables import Number, Table
+
+ORBIT = Table("orbit_table", "mine.glsl", "blackhole_gl.physics.orbit_table:table", ("camera.distance",))
+PLUG_IN = catalogue.plug_ins("sky")["procedural"]
+
+
+def declaring(*tables: Table) -> list[catalogue.PlugIn]:
+    return [replace(PLUG_IN, tables=tables)]
+
+
+def test_a_table_is_what_its_function_makes(ctx: moderngl.Context) -> None:
+    tables = Tables(ctx)
+    texture = tables.of(declaring(ORBIT), Scene())["orbit_table"]
+    values = np.frombuffer(texture.read(), np.float32).reshape(2, orbit_table.WIDTH, 4)
+    np.testing.assert_array_equal(values, orbit_table.table(Scene().camera.distance))
+    assert texture.filter == (moderngl.NEAREST, moderngl.NEAREST) and not texture.repeat_x and not texture.repeat_y
+    tables.release()
+
+
+def test_the_skys_tables_are_filtered_as_its_header_says(ctx: moderngl.Context) -> None:
+    tables = Tables(ctx)
+    made = tables.of([PLUG_IN], Scene())
+    assert list(made) == ["galaxy_band", "star_cells"]
+    band, stars = made.values()
+    assert (band.dtype, band.components, band.filter, band.repeat_x) == ("f1", 3, (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR), True)
+    assert (stars.dtype, stars.components, stars.filter, stars.repeat_x) == ("f4", 4, (moderngl.NEAREST, moderngl.NEAREST), False)
+    tables.release()
+
+
+def test_a_table_is_made_anew_when_what_it_depends_on_changes_and_only_then(ctx: moderngl.Context) -> None:
+    tables, near, far = Tables(ctx), Scene(), Scene().with_values({"camera.distance": 30.0})
+    first = tables.of(declaring(ORBIT), near)["orbit_table"]
+    assert tables.of(declaring(ORBIT), near.with_values({"camera.fov_deg": 10.0}))["orbit_table"] is first and tables.made == 1
+    tables.of(declaring(replace(ORBIT, file="another.glsl")), near)
+    assert tables.made == 1, "two plug-ins that declare the same table share it"
+    again = tables.of(declaring(ORBIT), far)["orbit_table"]
+    assert again is first and tables.made == 2, "the same texture holds the new values"
+    np.testing.assert_array_equal(np.frombuffer(again.read(), np.float32).reshape(2, -1, 4), orbit_table.table(30.0))
+    tables.release()
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"make": "blackhole_gl.physics.orbit_table:tabel"}, "mine.glsl: orbit_table: make: blackhole_gl.physics.orbit_table:tabel cannot be found"),
+        ({"make": "blackhole_gl.physics.nowhere:table"}, "make: blackhole_gl.physics.nowhere:table cannot be found"),
+        ({"make": "os:getcwd", "of": ()}, "make: got 'os:getcwd'; allowed is blackhole_gl.MODULE:NAME"),
+        ({"of": ("camera.distanse",)}, r"of: got 'camera.distanse'; allowed are keys of a scene; did you mean camera.distance\?"),
+        ({"of": ()}, "make: blackhole_gl.physics.orbit_table:table cannot be called with the 0 values of `of`: missing a required argument"),
+        ({"make": "blackhole_gl.physics.orbit_table:CELLS"}, "make: blackhole_gl.physics.orbit_table:CELLS cannot be called"),
+        ({"make": "blackhole_gl.physics.orbit_table:edge_tangent"}, r"edge_tangent made float64; allowed is an array \(rows, columns, 1 to 4\)"),
+    ],
+)
+def test_a_declaration_that_makes_no_table_names_file_and_entry(ctx: moderngl.Context, change: dict, words: str) -> None:
+    with pytest.raises(CatalogueError, match=words):
+        Tables(ctx).of(declaring(replace(ORBIT, **change)), Scene())
+
+
+def test_constants_have_to_be_whole_numbers() -> None:
+    assert replace(ORBIT, constants="blackhole_gl.physics.orbit_table:CONSTANTS").defines() == {"ORBIT_CELL_BITS": 19, "ORBIT_FIRST_CELL": 1648}
+    with pytest.raises(CatalogueError, match="mine.glsl: orbit_table: constants: blackhole_gl.physics.orbit_table:CELLS is no mapping"):
+        replace(ORBIT, constants="blackhole_gl.physics.orbit_table:CELLS").defines()
+
+
+def test_whatever_shipped_headers_name_is_there() -> None:
+    declared = [made for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values() for made in (*plug_in.tables, *plug_in.numbers)]
+    assert {type(made) for made in declared} == {Table, Number}
+    for made in declared:
+        assert made.made(made.arguments(Scene())) is not None
+        if isinstance(made, Table):
+            assert all(name.isidentifier() for name in made.defines())
