@@ -154,7 +154,7 @@ def _true_model(scene: Scene) -> tuple[str, float]:
 def _is_curved(scene: Scene) -> bool:
     """Whether the scene's model is meant to show a hole: all but the one that is exact in flat space."""
     facts = ray_model(scene).traits
-    return not (facts["exact"] and facts["space_time"] == "flat")
+    return not (facts.exact and facts.space_time == "flat")
 
 
 @cache

@@ -6,7 +6,7 @@ turns it to the world.
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from itertools import count
 
 import moderngl
@@ -168,7 +168,7 @@ class HitMap:
         found = replace(found, momentum=hit_texels.momenta([_texels(kept) for kept in momenta], found.crossing))
         for made in (target, texture, *momenta):
             made.release()
-        return HitArrays(*(_flat(getattr(found, item.name), number) for item in fields(HitArrays)))
+        return found.each(lambda values: values.reshape(-1, *values.shape[2:])[:number])
 
     def emission_shifts(self) -> np.ndarray:
         """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none."""
@@ -240,11 +240,6 @@ class HitMap:
 def _texels(texture: moderngl.Texture) -> np.ndarray:
     """The texels (height, width, 4) of an RGBA32F texture. Waits for the GPU."""
     return np.frombuffer(texture.read(), np.float32).reshape(texture.height, texture.width, 4)
-
-
-def _flat(values: np.ndarray, number: int) -> np.ndarray:
-    """The first `number` of (height, width, …), row by row."""
-    return values.reshape(-1, *values.shape[2:])[:number]
 
 
 def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:

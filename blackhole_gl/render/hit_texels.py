@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from typing import Sequence
 
 import numpy as np
@@ -41,6 +42,11 @@ class HitArrays:
     lambda_: Array
     crossing: Array
     momentum: Array | None = None
+
+    def each(self, function: Callable[[Array], Array]) -> HitArrays:
+        """The hits with `function` applied to every array there is."""
+        there = {item.name: getattr(self, item.name) for item in fields(self)}
+        return HitArrays(**{name: None if values is None else function(values) for name, values in there.items()})
 
 
 def fates_and_steps(texels: Array) -> tuple[Array, Array]:

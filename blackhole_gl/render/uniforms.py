@@ -13,7 +13,7 @@ from ..glsl.blocks import Block
 from ..glsl.declared import defines
 from ..physics import observer, shear
 from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
-from ..scene import catalogue, fields
+from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
 
 _RAY_MEMBERS = (

@@ -155,7 +155,7 @@ def glow(ctx, renderer, radiance: np.ndarray, **values) -> np.ndarray:
     source = ctx.texture((width, height), 4, data.tobytes(), dtype="f2")
     source.repeat_x = source.repeat_y = False
     post = PostPass(ctx, renderer.programs)
-    texture = post._bloom(scene, plan.plan(scene), source)
+    texture = post._bloom(FrameInputs.whole(plan.plan(scene), 0.0, source.size), source)
     found = np.frombuffer(texture.read(), np.float16).reshape(texture.height, texture.width, 4)[..., :3].astype(float)
     post.release()
     return found

@@ -41,6 +41,6 @@ def test_the_programs_used_last_are_kept(renderer, monkeypatch):
     other = Scene().with_values({"post.tone_map": "agx"})
     renderer.render(other, 0.0, SIZE)
     compiled = renderer.programs.compiled
-    assert compiled > needed and len(renderer.programs._triangles) == needed
+    assert compiled > needed and len(renderer.programs._kept) == needed
     renderer.render(other, 1.0, SIZE)
     assert renderer.programs.compiled == compiled

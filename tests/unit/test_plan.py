@@ -94,7 +94,7 @@ def test_the_outer_edge_is_never_inside_the_inner_one():
 
 def test_far_rays_are_finished_in_closed_form_farther_out_where_gravity_is_stronger():
     assert plan.plan(Scene()).march_bound == plan.MARCH_BOUND
-    assert plan.march_bound(Scene().with_values({"hole.gravity_strength": 4.0})) == 4.0 * plan.MARCH_BOUND
+    assert plan.plan(Scene().with_values({"hole.gravity_strength": 4.0})).march_bound == 4.0 * plan.MARCH_BOUND
 
 
 def test_options_that_do_not_fit_are_named_with_the_reason():
