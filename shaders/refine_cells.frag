@@ -50,6 +50,6 @@ void main() {
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
     cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
-    int shared_class = disk ? PIXEL_DISK : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
+    int shared_class = disk ? PIXEL_MATTER : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
     class_out = class_depth(trusted ? shared_class : PIXEL_OWN_RAY);
 }

@@ -2,7 +2,7 @@
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
 // do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
 //
-// PIXEL_DISK, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
+// PIXEL_MATTER, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
 // than another, one draw each. The few that cross the disk and are not of the sky are black in it.
 #defines
 #blocks
@@ -18,5 +18,8 @@ void main() {
     for (int n = 0; n < ORDERS; ++n)
         disk = may_be_covered(crossing_of(hits.crossing[n])) || disk;
 #endif
-    gl_FragDepth = class_depth(disk ? PIXEL_DISK : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
+#if MEETINGS
+    disk = disk || hits.meeting[0].kind >= 0;
+#endif
+    gl_FragDepth = class_depth(disk ? PIXEL_MATTER : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
 }

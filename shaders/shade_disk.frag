@@ -21,7 +21,26 @@
 
 uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/physics/disk_profile.py
 
+#if MEETINGS
+layout(location = 0, index = 0) out vec4 radiance;
+layout(location = 0, index = 1) out vec4 passed;  // of what lies behind, per colour
+#else
 out vec4 radiance;
+#endif
+
+// Light on its way to the camera: gathered so far, and the share of what lies farther on that still comes through.
+struct Light {
+    vec3 gathered;
+    vec3 passed;
+};
+
+
+#if MEETINGS
+#instances
+#include "common/matter.glsl"
+#slots thing
+#slots medium
+#endif
 
 const float BRIGHTEST = 6.0e4;          // what a half float holds
 const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
@@ -57,8 +76,8 @@ vec2 disk_appearance(float density) {
 #endif
 }
 
-// The light gathered so far (rgb) and what still comes through (a), after one more crossing.
-vec4 pass_disk(vec4 light, Crossing crossing, float lambda, float energy) {
+// The light gathered so far and what still comes through, after one more crossing.
+Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
     float r = max(length(crossing.point), 1e-6);
     vec2 heading = crossing.point / r;
     vec2 across = vec2(-heading.y, heading.x);
@@ -69,20 +88,50 @@ vec4 pass_disk(vec4 light, Crossing crossing, float lambda, float energy) {
 
     vec2 look = disk_appearance(matter.density) * disk_cover(crossing);
     vec3 emission = disk_radiance(clamp(r, disk_r_in, disk_r_out), lambda, energy);
-    return vec4(light.rgb + light.a * look.x * emission, light.a * (1.0 - look.y));
+    return Light(light.gathered + light.passed * look.x * emission, light.passed * (1.0 - look.y));
 }
+
+#if MEETINGS
+// The same after the things and media that come when `crossings` of the disk's plane have gone before.
+Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
+    for (int k = 0; k < MEETINGS; ++k) {
+        Meeting met = hits.meeting[k];
+        if (met.kind < 0 || met.before != crossings) continue;
+        Light own = Light(vec3(0.0), vec3(1.0));
+        Sight sight = sight_of(met, energy);
+#each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
+#if MEETINGS > 1
+        vec3 end = k + 1 < MEETINGS && hits.meeting[min(k + 1, MEETINGS - 1)].kind == met.kind ? hits.meeting[min(k + 1, MEETINGS - 1)].place : met.place;
+#each medium : if (met.kind == MEDIUM_$KEY && met.enters) own = medium_$key_light(met.index, sight, end);
+#endif
+        light = Light(light.gathered + light.passed * own.gathered, light.passed * own.passed);
+    }
+    return light;
+}
+#endif
 
 void main() {
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
 
+    Light light = Light(vec3(0.0), vec3(1.0));
+#if MEETINGS
+    for (int n = 0; n < 3; ++n) {
+        light = pass_meetings(light, hits, n, energy);
+#if ORDERS > 0
+        Crossing crossing = crossing_of(hits.crossing[n]);
+        if (may_be_covered(crossing)) light = pass_disk(light, crossing, hits.lambda, energy);
+#endif
+    }
+    light = pass_meetings(light, hits, 3, energy);
+    passed = vec4(light.passed, 1.0);
+#else
     // The crossings that may count come first, in order; at least one does in every pixel that gets here.
     Crossing first = crossing_of(hits.crossing[0]), second = crossing_of(hits.crossing[1]), third = crossing_of(hits.crossing[2]);
     bool more = may_be_covered(second), last = may_be_covered(third);
     if (!more) { second = third; more = last; last = false; }
     if (!may_be_covered(first)) { first = second; second = third; more = last; last = false; }
 
-    vec4 light = vec4(0.0, 0.0, 0.0, 1.0);
     bool left;
     do {
         light = pass_disk(light, first, hits.lambda, energy);
@@ -92,5 +141,6 @@ void main() {
         more = last;
         last = false;
     } while (left);
-    radiance = vec4(clamp(light.rgb, 0.0, BRIGHTEST), light.a);
+#endif
+    radiance = vec4(clamp(light.gathered, 0.0, BRIGHTEST), light.passed.x);
 }

@@ -13,6 +13,12 @@
 #include "common/hits.glsl"
 #include "common/curve.glsl"
 #include "common/hit_map_write.glsl"
+#if MEETINGS
+#instances
+#slots thing
+#slots medium
+#include "common/meetings.glsl"
+#endif
 #slot ray_model
 #if MARCHED
 #slot integrator

@@ -5,9 +5,10 @@ Directives, each alone on its line and never acted on inside a comment:
 ``#include "common/noise.glsl"``      the file (path below ``shaders/``), the first time it is asked for
 ``#slot ray_model``                   the file of the plug-in chosen for a slot
 ``#slots disk_layer``                 the files of all plug-ins chosen for a slot
-``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` replaced
+``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` and ``$KEY`` replaced
 ``#blocks``                           the numbers that the host gives, those that the text mentions
 ``#defines``                          the switches that the text mentions
+``#instances``                        what reads the tables of the scene's things and media
 
 moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses the line numbers.
 """
@@ -19,7 +20,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-_DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines)\b\s*(.*)$")
+_DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LOG_LINE = (
     re.compile(r"^\d+:(?P<line>\d+)\(\d+\): (?P<text>.*)$"),  # Mesa
@@ -87,6 +88,7 @@ def compose(
     chosen: Mapping[str, Sequence[str]] | None = None,
     switches: Mapping[str, int] | None = None,
     blocks: Callable[[frozenset[str]], str] = lambda words: "",
+    instances: str = "",
 ) -> Composed:
     """The text of ``root/path`` with all directives carried out.
 
@@ -96,6 +98,7 @@ def compose(
         chosen: slot → paths (below `root`) of the chosen plug-ins.
         switches: name → value of every possible ``#define``; only those mentioned are written.
         blocks: gives the GLSL that replaces ``#blocks`` from the identifiers of the text.
+        instances: the GLSL that replaces ``#instances``.
 
     Raises:
         ShaderError: a file or a slot is missing, or a directive is malformed.
@@ -109,6 +112,8 @@ def compose(
             out.extend((f"#define {name} {value}", place) for name, value in used.items())
         elif text.strip() == "#blocks":
             out.extend((line, place) for line in blocks(words).splitlines())
+        elif text.strip() == "#instances":
+            out.extend((line, place) for line in instances.splitlines())
         else:
             out.append((text, place))
     return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used, words)
@@ -127,7 +132,7 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: se
         place = (path, number)
         match = None if in_comment else _DIRECTIVE.match(text)
         in_comment = _comment_open(text, in_comment)
-        if match is None or match[1] in ("defines", "blocks"):
+        if match is None or match[1] in ("defines", "blocks", "instances"):
             yield text, place
         elif match[1] == "include":
             name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
@@ -140,7 +145,7 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: se
                 raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
             for plug_in in chosen[slot.strip()]:
                 if match[1] == "each":
-                    yield template.strip().replace("$key", Path(plug_in).stem), place
+                    yield template.strip().replace("$key", Path(plug_in).stem).replace("$KEY", Path(plug_in).stem.upper()), place
                 else:
                     yield from _expand(root, plug_in, chosen, seen, place)
 

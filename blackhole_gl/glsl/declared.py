@@ -11,6 +11,8 @@ class Fate(IntEnum):
     UNRESOLVED = 0
     ESCAPED = 1
     CAPTURED = 2
+    MET = 3
+    """It ends on something opaque."""
 
 
 class PixelClass(IntEnum):
@@ -18,10 +20,10 @@ class PixelClass(IntEnum):
 
     OWN_RAY = 0
     """A ray of its own: the trace pass is still to draw it, and it may need anything."""
-    DISK = 1
-    """May cross the disk, and may be of the sky."""
+    MATTER = 1
+    """May show the disk, a thing or a medium, and may be of the sky."""
     SKY = 2
-    """Of the sky, no disk."""
+    """Of the sky, with nothing before it."""
     NEITHER = 4
     FLAT_SKY = 7
     """As SKY, and directions may be interpolated linearly: nothing else is read. With `SKY` it adds up to 9, so that one minus its depth is that of SKY."""

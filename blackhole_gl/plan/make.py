@@ -6,10 +6,10 @@ import math
 from functools import lru_cache
 
 from ..physics.space_time import SpaceTime, ray_model, space_time
-from ..scene import Scene, SceneError, catalogue
+from ..scene import Scene, SceneError, catalogue, met
 from ..scene.catalogue import PlugIn
 from . import choice
-from .record import MERIDIAN, Plan
+from .record import MERIDIAN, WORLD, Plan
 
 # A ray that comes near the critical curve winds round the hole; one pixel in a 4K picture lies closer than 1e-7 to it only by
 # rare chance, and 3 turns reach that: each turn takes a factor e^{2π} of distance.
@@ -48,6 +48,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         stretch = max(1.0, _steps_needed(scene, model, control) / max_steps)
         if stretch > 1.0:
             reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene")
+    reach = met.reach(scene)
     refine, why_refine = _refines(scene, model, chosen)
     reasons.append(why_refine)
     inner, outer = _disk_radii(scene, where)
@@ -60,14 +61,23 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         step_length=scene.rays.step_length * stretch,
         step_angle=scene.rays.step_angle * stretch,
         max_steps=max_steps,
-        march_bound=_march_bound(scene, model),
+        march_bound=max(_march_bound(scene, model), reach),
         orders=orders,
         disk_inner=inner,
         disk_outer=outer,
+        meetings=_meetings(scene),
+        reach=reach,
         refine_px=refine_px(scene) if refine else 0.0,
-        frame=MERIDIAN,
+        frame=MERIDIAN if met.is_empty(scene) else WORLD,
         reasons=tuple(reasons),
     )
+
+
+def _meetings(scene: Scene) -> int:
+    """Meetings that are kept of a ray: one where whatever it meets first ends it; two where light comes through, as into and out of a medium."""
+    if met.is_empty(scene):
+        return 0
+    return 2 if scene.media or not all(kind.traits.opaque for kind in met.kinds(scene, "thing")) else 1
 
 
 def forget_measurements() -> None:
@@ -139,6 +149,8 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, st
     """
     if model.traits.kind == "closed" and (model.traits.space_time == "flat" or not model.traits.exact):
         return False, "moving: a ray for every pixel, as it costs no more than interpolating"
+    if not met.is_empty(scene):
+        return False, "moving: a ray for every pixel, as things and media are not interpolated"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
     found = choice.refinement(scene)
@@ -183,7 +195,7 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     shortest = control.traits.shortest
     if model.traits.marches_in == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
-    bound = _march_bound(scene, model)
+    bound = max(_march_bound(scene, model), met.reach(scene))
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere

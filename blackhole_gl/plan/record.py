@@ -35,6 +35,8 @@ class Plan:
         march_bound: radius in r_s beyond which outward rays are finished in closed form.
         orders: crossings of the disk's plane that are kept, 0 without a disk.
         disk_inner, disk_outer: the disk's edges in r_s, as used.
+        meetings: how many of the scene's things and media are kept of each ray, 0 where there are none.
+        reach: radius in r_s beyond which there is none of them.
         refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
         frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
             which turns about the axis keeps its hits, where everything that rays meet is symmetric about the axis; else the ``world``.
@@ -53,6 +55,8 @@ class Plan:
     orders: int
     disk_inner: float
     disk_outer: float
+    meetings: int
+    reach: float
     refine_px: float
     frame: Frame
     reasons: tuple[str, ...]

@@ -14,11 +14,12 @@ import numpy as np
 
 from ..physics.observer import cos_sin_deg
 from ..plan import REFINE_STEP, Plan
-from . import hit_texels, refinement
+from . import hit_texels, instances, refinement
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Draw, Programs, chosen
-from .tables import Tables
+from .instances import InstanceTables
+from .tables import RAY_UNIT, Tables
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
@@ -33,6 +34,7 @@ class HitMap:
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
         tables: what rays are traced with.
+        instances: the things and media that they may meet.
         traces: how many times rays have been traced, for tests and the overlay.
         generation: of what the map holds: a number that no other trace of this process has had.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
@@ -45,6 +47,7 @@ class HitMap:
         self.generation = 0
         self.sharpened = False
         self.tables = Tables(ctx)
+        self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._target: moderngl.Framebuffer | None = None
@@ -73,8 +76,8 @@ class HitMap:
         self._traced = inputs
         if held and self.is_sharp:
             return False
-        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
-        self._make_targets(inputs.size, plan.orders)
+        self._bind_tables(rays)
+        self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings))
         if not refined:
             self._trace_rows(rays, 0, inputs.size[1])
         elif self.sharpened:
@@ -85,6 +88,14 @@ class HitMap:
         self.traces += 1
         self.generation = next(_GENERATIONS)
         return True
+
+    def _bind_tables(self, rays: Draw) -> None:
+        """Gives the trace pass what it looks up: tables of the ray model, and the things and media that rays may meet."""
+        plan = rays.inputs.plan
+        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
+        if plan.meetings:
+            rays.sample(self.instances.samplers(plan.scene), RAY_UNIT + 1)
+            rays.set(meeting_reach=plan.reach)
 
     @property
     def is_sharp(self) -> bool:
@@ -103,7 +114,8 @@ class HitMap:
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""
-        found = {f"hits{k}": texture for k, texture in enumerate(self.textures)}
+        plan = self._traced.plan
+        found = dict(zip(hit_texels.names(plan.orders, plan.meetings), self.textures))
         return found if self.is_sharp else {**found, **self._grid.samplers()}
 
     def switches(self) -> dict[str, int]:
@@ -156,9 +168,9 @@ class HitMap:
         rays = self._programs.get("trace.frag", self._traced, {"RAYS_LISTED": 1})
         rays.set(listed_rays=0)
         texture.use(0)
-        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
+        self._bind_tables(rays)
         self._key, self.generation = None, next(_GENERATIONS)
-        self._make_targets((width, height), plan.orders)
+        self._make_targets((width, height), hit_texels.textures(plan.orders, plan.meetings))
         momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.MOMENTA)]
         target = self._ctx.framebuffer([*self.textures, *momenta])
         target.use()
@@ -185,7 +197,9 @@ class HitMap:
 
     def read(self) -> HitArrays:
         """The map as arrays of shape (height, width, …), as its readers see it."""
-        found = hit_texels.unpacked([_texels(texture) for texture in self.textures] if self.is_sharp else self._resolved())
+        plan = self._traced.plan
+        stored = [_texels(texture) for texture in self.textures] if self.is_sharp else self._resolved()
+        found = hit_texels.unpacked(stored, plan.orders, plan.meetings)
         return replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
 
     def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
@@ -210,9 +224,8 @@ class HitMap:
         x, y = vectors[..., 0].astype(float), vectors[..., 1].astype(float)
         return np.concatenate([np.stack([c * x - s * y, s * x + c * y], axis=-1), vectors[..., 2:]], axis=-1).astype(np.float32)
 
-    def _make_targets(self, size: tuple[int, int], orders: int) -> None:
+    def _make_targets(self, size: tuple[int, int], count: int) -> None:
         """Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""
-        count = hit_texels.textures(orders)
         if self._pool and self._pool[0].size != size:
             self._release_targets()
         while len(self._pool) < count:
@@ -228,6 +241,7 @@ class HitMap:
     def release(self) -> None:
         """Gives the GL objects back."""
         self.tables.release()
+        self.instances.release()
         self._grid.release()
         self._release_targets()
 
@@ -246,7 +260,7 @@ def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
     """What bends rays and where they are looked at from: hits that have the same key are the same."""
     scene = inputs.plan.scene
     parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
-    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders
+    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders, instances.key(scene)
 
 
 def _refined_for(inputs: FrameInputs) -> tuple:

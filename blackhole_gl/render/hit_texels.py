@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Sequence
 
 import numpy as np
@@ -17,9 +17,14 @@ MOMENTA = 2
 """Textures of the crossings' momenta, which listed rays leave after those of `textures`."""
 
 
-def textures(orders: int) -> int:
-    """Textures of a map that keeps `orders` crossings."""
-    return 1 + min(orders, 2)
+def textures(orders: int, meetings: int = 0) -> int:
+    """Textures of a map that keeps `orders` crossings and `meetings` with things and media."""
+    return 1 + min(orders, 2) + 2 * meetings
+
+
+def names(orders: int, meetings: int) -> list[str]:
+    """What shaders call them, in their order."""
+    return [f"hits{k}" for k in range(textures(orders))] + [name for k in range(meetings) for name in (f"met{k}", f"way{k}")]
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,8 @@ class HitArrays:
         crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
         momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
             |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
+        met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.
+        met_place: float32 (…, meetings, 3): where, in r_s in the world; zero without. Both None in a scene where there is nothing to meet.
     """
 
     fate: Array
@@ -42,6 +49,8 @@ class HitArrays:
     lambda_: Array
     crossing: Array
     momentum: Array | None = None
+    met: Array | None = None
+    met_place: Array | None = None
 
     def each(self, function: Callable[[Array], Array]) -> HitArrays:
         """The hits with `function` applied to every array there is."""
@@ -55,13 +64,20 @@ def fates_and_steps(texels: Array) -> tuple[Array, Array]:
     return packed & 3, packed >> 2
 
 
-def unpacked(texels: Sequence[Array]) -> HitArrays:
-    """The hits in the texels (…, 4) of `textures`, and of `MOMENTA` more where there are any, directions and crossings as they lie there."""
-    first, kept = texels[0], list(texels[1:3])
+def unpacked(texels: Sequence[Array], orders: int, meetings: int) -> HitArrays:
+    """The hits in the texels (…, 4) of `textures`, directions and places as they lie there."""
+    plane = textures(orders)
+    first, kept = texels[0], list(texels[1:plane])
     kept += [np.zeros_like(first)] * (2 - len(kept))
     fate, steps = fates_and_steps(first)
     crossing = np.stack([kept[0][..., :2], kept[1][..., :2], kept[1][..., 2:]], axis=-2)
-    return HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing)
+    found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing)
+    if not meetings:
+        return found
+    places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)
+    packed = places[..., 3].astype(np.int32)
+    met = np.where(packed[..., None] > 0, np.stack([(packed & 31) - 1, packed >> 8, (packed >> 5) & 3], axis=-1), -1)
+    return replace(found, met=met, met_place=places[..., :3])
 
 
 def momenta(texels: Sequence[Array], crossing: Array) -> Array:

@@ -17,8 +17,8 @@ from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
 from ..plan import Plan
 from ..resources import shaders_dir
-from ..scene import catalogue
-from . import uniforms
+from ..scene import catalogue, met
+from . import instances, uniforms
 from .inputs import FrameInputs, UniformBuffers
 
 MOST_KEPT = 64
@@ -29,6 +29,7 @@ _SERIALS = count(1)
 
 RAY_SLOTS = ("ray_model", "integrator", "step_control")
 SHADE_SLOTS = ("disk_layer", "sky")
+MET_SLOTS = ("thing", "medium")
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
@@ -39,14 +40,15 @@ class Unready(RuntimeError):
 
 @dataclass(frozen=True)
 class _Structure:
-    """What a scene and its plan ask of a program's text: (slot, paths) and (switch, value) pairs."""
+    """What a plan asks of a program's text: (slot, paths) and (switch, value) pairs, and what reads the tables of instances."""
 
     chosen: tuple[tuple[str, tuple[str, ...]], ...]
     switches: tuple[tuple[str, int], ...]
+    instances: str
 
     @cached_property
     def _hash(self) -> int:
-        return hash((self.chosen, self.switches))
+        return hash((self.chosen, self.switches, self.instances))
 
     def __hash__(self) -> int:
         return self._hash
@@ -182,15 +184,15 @@ class Programs:
     def _structure(self, plan: Plan) -> _Structure:
         """A frame asks for several programs with the same plan: worked out once. One that is as before is the same object, found by its identity."""
         if self._asked is None or self._asked[0] is not plan:
-            paths = ((slot, tuple(plug_in.path for plug_in in chosen(plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS))
-            found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()))
+            paths = ((slot, tuple(plug_in.path for plug_in in chosen(plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS))
+            found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
             same = self._asked is not None and self._asked[1] == found
             self._asked = plan, self._asked[1] if same else found
         return self._asked[1]
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
         switches = dict(structure.switches + extra)
-        return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
+        return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment, instances=structure.instances)
 
     def _compiled(self, composed: Composed, *, by: float) -> Compiled:
         if composed.text not in self._kept:
@@ -226,6 +228,8 @@ def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
     for slot in slots:
         if slot in rays:
             found += [rays[slot]] if rays[slot] else []
+        elif slot in MET_SLOTS:
+            found += met.kinds(scene, slot)
         elif slot == "disk_layer":
             found += [layer for layer in catalogue.plug_ins(slot).values() if plan.orders and scene.get(f"disk.{layer.key}")]
         else:

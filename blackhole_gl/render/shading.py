@@ -14,7 +14,9 @@ from .programs import SHADE_SLOTS, Draw, Programs, chosen
 from .tables import Tables
 
 # Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
-_DISK, _SKY, _FLAT_SKY = PixelClass.DISK.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
+_DISK, _SKY, _FLAT_SKY = PixelClass.MATTER.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
+
+_SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
@@ -50,10 +52,11 @@ class ShadePass:
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
         self._lay_sky(inputs, hit_map, target)
-        if inputs.plan.orders:
+        if inputs.plan.orders or inputs.plan.meetings:
             self._frame.use()
             ctx.enable(moderngl.BLEND)
-            ctx.blend_func = moderngl.ONE, moderngl.SRC_ALPHA  # the disk, and what it lets through of the sky behind it
+            # The disk, things and media, and what they let through of the sky behind them: of all colours alike, or of each its own.
+            ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
             disk = self._prepared("shade_disk.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
@@ -103,7 +106,8 @@ class ShadePass:
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
-        prepared.sample({**hit_map.samplers(), **declared, "temperature_profile": self._profile})
+        things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
+        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._profile})
         return prepared
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:

@@ -15,6 +15,7 @@ from ..physics import observer, shear
 from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
+from . import instances
 
 _RAY_MEMBERS = (
     ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
@@ -167,6 +168,7 @@ def scene_values(plan: Plan) -> dict[str, object]:
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": REFINE_STEP}
+    found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key))

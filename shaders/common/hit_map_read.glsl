@@ -16,6 +16,12 @@ uniform sampler2D hits1;
 #if ORDERS > 1
 uniform sampler2D hits2;
 #endif
+#if MEETINGS
+uniform sampler2D met0, way0;
+#endif
+#if MEETINGS > 1
+uniform sampler2D met1, way1;
+#endif
 #if HIT_MAP_REFINED
 uniform usampler2D cells;
 uniform sampler2D coarse0; // these are filtered linearly
@@ -112,7 +118,14 @@ Hits stored_hits(ivec2 pixel) {
 #if ORDERS > 1
     t2 = texel_of(hits2, pixel);
 #endif
-    return unpacked_hits(texel_of(hits0, pixel), t1, t2);
+    Hits hits = unpacked_hits(texel_of(hits0, pixel), t1, t2);
+#if MEETINGS
+    hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel));
+#endif
+#if MEETINGS > 1
+    hits.meeting[1] = unpacked_meeting(texel_of(met1, pixel), texel_of(way1, pixel));
+#endif
+    return hits;
 }
 
 Hits fetch_hits(ivec2 pixel) {

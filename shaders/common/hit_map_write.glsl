@@ -8,12 +8,37 @@ layout(location = 1) out vec4 hits1_out;
 #if ORDERS > 1
 layout(location = 2) out vec4 hits2_out;
 #endif
-#if RAYS_LISTED && ORDERS > 1
-layout(location = 3) out vec4 momenta0_out;
-layout(location = 4) out vec4 momenta1_out;
+// The targets after those.
+#if ORDERS > 1
+#define FREE_TARGET_0 3
+#define FREE_TARGET_1 4
+#define FREE_TARGET_2 5
+#define FREE_TARGET_3 6
+#elif ORDERS == 1
+#define FREE_TARGET_0 2
+#define FREE_TARGET_1 3
+#define FREE_TARGET_2 4
+#define FREE_TARGET_3 5
+#else
+#define FREE_TARGET_0 1
+#define FREE_TARGET_1 2
+#define FREE_TARGET_2 3
+#define FREE_TARGET_3 4
+#endif
+#if MEETINGS
+layout(location = FREE_TARGET_0) out vec4 met0_out;
+layout(location = FREE_TARGET_1) out vec4 way0_out;
+#endif
+#if MEETINGS > 1
+layout(location = FREE_TARGET_2) out vec4 met1_out;
+layout(location = FREE_TARGET_3) out vec4 way1_out;
+#endif
+#if RAYS_LISTED && MEETINGS
+layout(location = FREE_TARGET_2) out vec4 momenta0_out;
+layout(location = FREE_TARGET_3) out vec4 momenta1_out;
 #elif RAYS_LISTED
-layout(location = 2) out vec4 momenta0_out;
-layout(location = 3) out vec4 momenta1_out;
+layout(location = FREE_TARGET_0) out vec4 momenta0_out;
+layout(location = FREE_TARGET_1) out vec4 momenta1_out;
 #endif
 
 #if POST_VIEW_CONSERVATION
@@ -28,7 +53,12 @@ bool is_finite(vec3 v) {
 // Hits with every number finite: what is not becomes an unresolved ray.
 Hits only_finite(Hits hits) {
     bool plane = is_finite(vec3(hits.crossing[0], hits.lambda)) && is_finite(vec3(hits.crossing[1], 0.0)) && is_finite(vec3(hits.crossing[2], 0.0));
-    if (plane && is_finite(hits.direction)) return hits;
+    bool space = true;
+#if MEETINGS
+    for (int k = 0; k < MEETINGS; ++k)
+        space = space && is_finite(hits.meeting[k].place) && is_finite(hits.meeting[k].momentum.n_rate) && is_finite(vec3(hits.meeting[k].momentum.w_rate));
+#endif
+    if (plane && space && is_finite(hits.direction)) return hits;
     Hits failed = no_hits(0.0);
     failed.steps = hits.steps;
     return failed;
@@ -60,6 +90,14 @@ void store_hits(Hits traced) {
 #endif
 #if ORDERS > 1
     hits2_out = others_texel(hits.crossing[1], ORDERS > 2 ? hits.crossing[2] : vec2(0.0));
+#endif
+#if MEETINGS
+    met0_out = met_texel(hits.meeting[0]);
+    way0_out = way_texel(hits.meeting[0]);
+#endif
+#if MEETINGS > 1
+    met1_out = met_texel(hits.meeting[1]);
+    way1_out = way_texel(hits.meeting[1]);
 #endif
 #if RAYS_LISTED
     momenta0_out = vec4(covariant_momentum(hits.crossing[0], hits.momentum[0]), covariant_momentum(hits.crossing[1], hits.momentum[1]));

@@ -3,6 +3,7 @@
 //   hits0   direction, 4·steps + fate
 //   hits1   crossing 0, λ, drift (for the view of conserved quantities; else 0)     with ORDERS > 0
 //   hits2   crossings 1 and 2                                                       with ORDERS > 1
+//   met0, way0, …   place in r_s and what is met there; w_rate and n_rate of the momentum      a pair for each of MEETINGS
 //   momenta0, momenta1   (k_r, k_θ) at crossings 0 and 1, and at crossing 2         of listed rays alone
 
 vec4 escape_texel(vec3 direction, int fate, int steps) {
@@ -34,3 +35,20 @@ Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
     hits.crossing = vec2[3](t1.xy, t2.xy, t2.zw);
     return hits;
 }
+
+#if MEETINGS
+// 24 bits, which a float holds: instance, sense, crossings before, kind and one, so that zero is none.
+vec4 met_texel(Meeting meeting) {
+    int packed = ((meeting.index * 2 + (meeting.enters ? 1 : 0)) * 4 + meeting.before) * 32 + meeting.kind + 1;
+    return meeting.kind < 0 ? vec4(0.0) : vec4(meeting.place, float(packed));
+}
+
+vec4 way_texel(Meeting meeting) {
+    return vec4(meeting.momentum.n_rate, meeting.momentum.w_rate);
+}
+
+Meeting unpacked_meeting(vec4 met, vec4 way) {
+    int packed = int(met.w + 0.5);
+    return Meeting((packed & 31) - 1, packed >> 8, (packed >> 5) & 3, ((packed >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz));
+}
+#endif

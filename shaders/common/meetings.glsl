@@ -6,6 +6,8 @@
 // So a ray may go on by that distance without meeting it, and has met it where the sign changes and the two sizes are no more than the way between.
 // Media have the same with medium_<key>_…; inside is negative, and outside positive.
 
+uniform float meeting_reach;  // r_s from the hole, beyond which there is nothing to meet
+
 const int MEETING_NONE = -1;
 
 #each thing : bool kind_$key(int kind) { return kind == THING_$KEY; }
