@@ -28,16 +28,9 @@ layout(location = 0, index = 1) out vec4 passed;  // of what lies behind, per co
 out vec4 radiance;
 #endif
 
-// Light on its way to the camera: gathered so far, and the share of what lies farther on that still comes through.
-struct Light {
-    vec3 gathered;
-    vec3 passed;
-};
-
-
+#include "common/matter.glsl"
 #if MEETINGS
 #instances
-#include "common/matter.glsl"
 #slots thing
 #slots medium
 #endif

@@ -60,6 +60,7 @@ class ShadePass:
             disk = self._prepared("shade_disk.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
+        ctx.blend_func = moderngl.DEFAULT_BLENDING  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
 
     def _lay_sky(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:

@@ -39,8 +39,8 @@ Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
 #if MEETINGS
 // 24 bits, which a float holds: instance, sense, crossings before, kind and one, so that zero is none.
 vec4 met_texel(Meeting meeting) {
-    int packed = ((meeting.index * 2 + (meeting.enters ? 1 : 0)) * 4 + meeting.before) * 32 + meeting.kind + 1;
-    return meeting.kind < 0 ? vec4(0.0) : vec4(meeting.place, float(packed));
+    int bits = ((meeting.index * 2 + (meeting.enters ? 1 : 0)) * 4 + meeting.before) * 32 + meeting.kind + 1;
+    return meeting.kind < 0 ? vec4(0.0) : vec4(meeting.place, float(bits));
 }
 
 vec4 way_texel(Meeting meeting) {
@@ -48,7 +48,7 @@ vec4 way_texel(Meeting meeting) {
 }
 
 Meeting unpacked_meeting(vec4 met, vec4 way) {
-    int packed = int(met.w + 0.5);
-    return Meeting((packed & 31) - 1, packed >> 8, (packed >> 5) & 3, ((packed >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz));
+    int bits = int(met.w + 0.5);
+    return Meeting((bits & 31) - 1, bits >> 8, (bits >> 5) & 3, ((bits >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz));
 }
 #endif

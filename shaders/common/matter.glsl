@@ -1,5 +1,12 @@
-// What a thing or a medium is told of how it is seen.
+// Light that is gathered along a ray, and what a thing or a medium is told of how it is seen.
 
+// On its way to the camera: gathered so far, and the share of what lies farther on that still comes through.
+struct Light {
+    vec3 gathered;
+    vec3 passed;
+};
+
+#if MEETINGS
 struct Sight {
     vec3 place;     // r_s
     vec3 towards;   // unit vector along the ray there, towards the camera
@@ -22,3 +29,4 @@ float rest_shift(float r) {
     return sqrt(max(1.0 - 1.0 / r, 0.0));
 #endif
 }
+#endif
