@@ -15,7 +15,7 @@ import moderngl
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
 from ..plan import RayPlan
-from ..resources import shaders_dir
+from ..resources import shaders_dir, user_shaders_dir
 from ..scene import Scene, catalogue
 from . import uniforms
 
@@ -59,7 +59,7 @@ class Programs:
 
     def __init__(self, ctx: moderngl.Context, root: Path | None = None):
         self.ctx = ctx
-        self.root = root or shaders_dir()
+        self.roots = root or shaders_dir(), user_shaders_dir()
         self.errors: list[ShaderError] = []
         self.deadline = math.inf
         self.compiled = 0
@@ -119,7 +119,7 @@ class Programs:
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
         switches = dict(structure.switches + extra)
-        return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
+        return compose(self.roots, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment)
 
     def _compiled(self, composed: Composed, *, by: float) -> moderngl.VertexArray:
         if composed.text not in self._triangles:
@@ -132,7 +132,7 @@ class Programs:
         return self._triangles[composed.text]
 
     def _compile(self, composed: Composed) -> moderngl.VertexArray:
-        vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
+        vertex = compose(self.roots, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
         try:
             program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
         except moderngl.Error as error:
@@ -144,7 +144,8 @@ class Programs:
         return self.ctx.vertex_array(program, [])
 
     def _times(self) -> tuple:
-        return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
+        files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert"))
+        return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in files))
 
 
 def bind_samplers(program: moderngl.Program, samplers: dict[str, moderngl.Texture], first: int = 0) -> None:

@@ -92,8 +92,30 @@ class StepControlTraits:
 
 
 @dataclass(frozen=True)
+class DiskLayerTraits:
+    """A disk layer.
+
+    Attributes:
+        enabled: whether it is on in a scene that does not say.
+    """
+
+    enabled: bool = False
+
+
+@dataclass(frozen=True)
+class ThingTraits:
+    """A kind of thing that rays may meet.
+
+    Attributes:
+        opaque: whether nothing shines through it.
+    """
+
+    opaque: bool = True
+
+
+@dataclass(frozen=True)
 class NoTraits:
     """Of slots whose plug-ins have nothing to say but what people read, and their parameters."""
 
 
-Traits = RayModelTraits | IntegratorTraits | StepControlTraits | NoTraits
+Traits = RayModelTraits | IntegratorTraits | StepControlTraits | DiskLayerTraits | ThingTraits | NoTraits
