@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from .output.progress import Progress
-from .scene import Scene, SceneError
+from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 
 app = typer.Typer(
@@ -24,9 +24,17 @@ app = typer.Typer(
 
 Presets = Annotated[
     list[str] | None,
-    typer.Option("--preset", "-p", help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.", show_default="kerr"),
+    typer.Option(
+        "--preset",
+        "-p",
+        help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.",
+        show_default="kerr",
+    ),
 ]
-Settings = Annotated[list[str] | None, typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12. Repeatable.")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
+]
 Backend = Annotated[str, typer.Option(help="How to get a GL context without a window: auto, egl or osmesa.", envvar="BLACKHOLE_GL_BACKEND")]
 
 
@@ -45,6 +53,8 @@ def main() -> None:
 @app.callback(invoke_without_command=True)
 def default(context: typer.Context) -> None:
     """Black holes in real time, with an error bar. Without a command: view."""
+    for mistake in catalogue.mistakes():
+        print(f"blackhole-gl: left out: {mistake}", file=sys.stderr)
     if context.invoked_subcommand is None:
         view()
 
@@ -252,4 +262,4 @@ def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples
     renderer = _renderer(backend)
     with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)
-    png.write(out, renderer.read_rgb8(), preset_files.picture_text(scene, time))
+    png.write(out, renderer.read_rgb8(), preset_files.picture_text(scene, time, out.absolute().parent))

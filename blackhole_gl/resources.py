@@ -26,12 +26,17 @@ def assets_dir() -> Path:
 
 
 def user_config_dir() -> Path:
-    """The folder of the user's key map and saved presets; it need not exist yet.
+    """The folder of the user's key map, saved presets and plug-ins; it need not exist yet.
 
     The environment variable BLACKHOLE_GL_CONFIG_DIR names another one, as a test or a portable copy wants.
     """
     chosen = os.environ.get("BLACKHOLE_GL_CONFIG_DIR")
     return Path(chosen) if chosen else platformdirs.user_config_path("blackhole-gl", appauthor=False)
+
+
+def user_shaders_dir() -> Path:
+    """The folder of the user's own plug-ins, cut like `shaders_dir`; it need not exist."""
+    return user_config_dir() / "shaders"
 
 
 def user_cache_dir() -> Path:

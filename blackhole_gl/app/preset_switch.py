@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ..scene import presets
+from ..scene import Scene, instances, presets
+from ..scene.catalogue import KIND
 from .state import WindowState
 
 LAYERED = ("physics", "look", "quality")
@@ -28,7 +29,7 @@ def pick(state: WindowState, group: str, name: str) -> None:
             scene, chosen = presets.load([name]), {group: name}
         else:
             chosen = {key: value for key, value in state.chosen.items() if key in LAYERED} | {group: name}
-            scene = state.scene.with_values(_changes(state.chosen.get(group), name, chosen))
+            scene = presets.read(name).over(_taken_back(state, group, name, chosen))
         moves_camera = group in WHOLE or any(key.startswith("camera.") for key in presets.read(name).values)
     except presets.SceneError as error:
         state.complain(str(error))
@@ -37,12 +38,17 @@ def pick(state: WindowState, group: str, name: str) -> None:
     state.show(scene, as_home=moves_camera)
 
 
-def _changes(old: str | None, new: str, chosen: Mapping[str, str]) -> Mapping[str, object]:
-    changes = dict(presets.read(new).values)
-    left = set(presets.read(old).values) - set(changes) if old else set()
-    if left:
-        without = presets.load([chosen[group] for group in LAYERED if group in chosen])
-        changes |= {key: without.get(key) for key in left}
-    return changes
-
-
+def _taken_back(state: WindowState, group: str, new: str, chosen: Mapping[str, str]) -> Scene:
+    """The scene with what only `new`'s forerunner in `group` had set as the layers `chosen` have it."""
+    old = state.chosen.get(group)
+    left = set(presets.read(old).values) - set(presets.read(new).values) if old else set()
+    if not left:
+        return state.scene
+    layers = presets.load([chosen[group] for group in LAYERED if group in chosen])
+    known, scene = layers.keys(), state.scene
+    for place in {place for key in left if (place := instances.place_of(key)) is not None}:
+        if place.path + "." + KIND in known:
+            left.add(place.path + "." + KIND)
+        elif place.name in getattr(scene, place.section):
+            scene = scene.without(place.path)
+    return scene.with_values({key: layers.get(key) for key in known if key in left})

@@ -63,7 +63,7 @@ def take(state: WindowState, text: str) -> None:
         preset = presets.parse(text, "clipboard")
         if not preset.values:
             raise presets.PresetError("holds no value of a scene; copy a preset's text first", source="clipboard")
-        scene = Scene().with_values(preset.values)
+        scene = preset.over(Scene())
     except presets.SceneError as error:
         state.complain(str(error))
         return
@@ -76,7 +76,7 @@ def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
     """Writes `pixels` ((height, width, 3) uint8, top row first) with the scene inside to a new file in `folder`."""
     path = _new_name(folder, datetime.now().strftime("blackhole-%Y%m%d-%H%M%S"))
     try:
-        png.write(path, pixels, presets.picture_text(state.scene, state.time))
+        png.write(path, pixels, presets.picture_text(state.scene, state.time, folder.absolute()))
     except OSError as error:
         state.complain(f"{path}: cannot be written: {error.strerror or error}")
         return

@@ -100,7 +100,7 @@ class WindowState:
         scene = self.scene
         if scene.post.view != "picture":  # diagnostic views know no time
             return False
-        return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and (scene.disk.point_field or scene.disk.turbulence)
+        return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and bool(scene.disk_layers())
 
     @property
     def is_moving(self) -> bool:

@@ -16,7 +16,7 @@ import glfw
 import moderngl
 
 from ..resources import user_config_dir
-from ..scene import Scene
+from ..scene import Scene, catalogue
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
 from .area import Area
 from .full_screen import FullScreen
@@ -195,6 +195,7 @@ class Window:
     def open(self, scene: Scene, preset_names: Iterable[str] = ()) -> None:
         """Starts afresh on `scene`, made from the presets of these names."""
         self.state = WindowState.start(scene, preset_switch.chosen_among(preset_names))
+        self.state.shader_error = _shader_mistakes(())
         self._panel = Panel()
 
     def _read_keys(self) -> keys.Bindings:
@@ -353,8 +354,14 @@ class Window:
             return
         if errors is before:
             return  # the very list: no file has changed
-        self.state.shader_error = "\n\n".join(str(error) for error in errors) or None
+        self.state.shader_error = _shader_mistakes(errors)
         self.picture.forget()
+
+
+def _shader_mistakes(errors: Iterable[Exception]) -> str | None:
+    """What is wrong with the shaders on disk: plug-ins of the user's that were left out at the start, and `errors`; None when nothing is."""
+    left_out = (f"{mistake}. It is left out until it is mended and the program started again." for mistake in catalogue.mistakes())
+    return "\n\n".join([*left_out, *map(str, errors)]) or None
 
 
 def _glfw_window() -> Any:

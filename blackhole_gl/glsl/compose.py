@@ -2,7 +2,7 @@
 
 Directives, each alone on its line and never acted on inside a comment:
 
-``#include "common/noise.glsl"``      the file (path below ``shaders/``), the first time it is asked for
+``#include "common/noise.glsl"``      the file (path below a shader folder), the first time it is asked for
 ``#slot ray_model``                   the file of the plug-in chosen for a slot
 ``#slots disk_layer``                 the files of all plug-ins chosen for a slot
 ``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` and ``$KEY`` replaced
@@ -34,7 +34,7 @@ class ShaderError(Exception):
 
     Attributes:
         message: what is wrong.
-        file: path below ``shaders/``; empty when no place is known.
+        file: path below ``shaders/``, or the whole path of a file of the user's; empty when no place is known.
         line: 1-based line in that file; 0 when no place is known.
     """
 
@@ -82,7 +82,7 @@ class Composed:
 
 
 def compose(
-    root: Path,
+    roots: Sequence[Path],
     path: str,
     *,
     chosen: Mapping[str, Sequence[str]] | None = None,
@@ -90,12 +90,12 @@ def compose(
     blocks: Callable[[frozenset[str]], str] = lambda words: "",
     instances: str = "",
 ) -> Composed:
-    """The text of ``root/path`` with all directives carried out.
+    """The text of the file at `path` with all directives carried out.
 
     Args:
-        root: the shader folder.
-        path: path below it.
-        chosen: slot → paths (below `root`) of the chosen plug-ins.
+        roots: the shader folders: the shipped one, then the user's. A file is taken from the first that has it.
+        path: path below one of them.
+        chosen: slot → paths of the chosen plug-ins, below one of them.
         switches: name → value of every possible ``#define``; only those mentioned are written.
         blocks: gives the GLSL that replaces ``#blocks`` from the identifiers of the text.
         instances: the GLSL that replaces ``#instances``.
@@ -103,7 +103,7 @@ def compose(
     Raises:
         ShaderError: a file or a slot is missing, or a directive is malformed.
     """
-    lines = list(_expand(root, path, chosen or {}, set(), ("", 0)))
+    lines = list(_expand(roots, path, chosen or {}, set(), ("", 0)))
     words = frozenset(word for text, _ in lines for word in _WORD.findall(text.partition("//")[0]))
     used = {name: value for name, value in (switches or {}).items() if name in words}
     out: list[tuple[str, tuple[str, int]]] = []
@@ -119,17 +119,21 @@ def compose(
     return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used, words)
 
 
-def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: set[str], asked_at: tuple[str, int]):
+def _expand(roots: Sequence[Path], path: str, chosen: Mapping[str, Sequence[str]], seen: set[str], asked_at: tuple[str, int]):
     if path in seen:
         return
     seen.add(path)
+    root = next((root for root in roots if (root / path).is_file()), roots[0])
+    shown = path if root == roots[0] else str(root / path)
     try:
         source = (root / path).read_text(encoding="utf-8")
     except OSError:
         raise ShaderError(f"there is no shader file {path}", *asked_at) from None
+    except UnicodeDecodeError as error:
+        raise ShaderError(f"{shown} is not UTF-8 text (byte {error.start})", *asked_at) from None
     in_comment = False
     for number, text in enumerate(source.splitlines(), start=1):
-        place = (path, number)
+        place = (shown, number)
         match = None if in_comment else _DIRECTIVE.match(text)
         in_comment = _comment_open(text, in_comment)
         if match is None or match[1] in ("defines", "blocks", "instances"):
@@ -138,7 +142,7 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: se
             name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
             if name is None:
                 raise ShaderError('write #include "path below shaders/"', *place)
-            yield from _expand(root, name[1], chosen, seen, place)
+            yield from _expand(roots, name[1], chosen, seen, place)
         else:
             slot, _, template = match[2].partition(":")
             if slot.strip() not in chosen:
@@ -147,7 +151,7 @@ def _expand(root: Path, path: str, chosen: Mapping[str, Sequence[str]], seen: se
                 if match[1] == "each":
                     yield template.strip().replace("$key", Path(plug_in).stem).replace("$KEY", Path(plug_in).stem.upper()), place
                 else:
-                    yield from _expand(root, plug_in, chosen, seen, place)
+                    yield from _expand(roots, plug_in, chosen, seen, place)
 
 
 def _comment_open(text: str, is_open: bool) -> bool:

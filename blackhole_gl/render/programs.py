@@ -16,7 +16,7 @@ import moderngl
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
 from ..plan import Plan
-from ..resources import shaders_dir
+from ..resources import shaders_dir, user_shaders_dir
 from ..scene import catalogue, met
 from . import instances, uniforms
 from .inputs import FrameInputs, UniformBuffers
@@ -130,7 +130,7 @@ class Programs:
 
     def __init__(self, ctx: moderngl.Context, root: Path | None = None):
         self.ctx = ctx
-        self.root = root or shaders_dir()
+        self.roots = root or shaders_dir(), user_shaders_dir()
         self.errors: list[ShaderError] = []
         self.deadline = math.inf
         self.compiled = 0
@@ -192,7 +192,15 @@ class Programs:
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
         switches = dict(structure.switches + extra)
-        return compose(self.root, path, chosen=dict(structure.chosen), switches=switches, blocks=lambda words: carry(uniforms.blocks(), words).fragment, instances=structure.instances)
+        blocks = uniforms.blocks()
+        return compose(
+            self.roots,
+            path,
+            chosen=dict(structure.chosen),
+            switches=switches,
+            blocks=lambda words: carry(blocks, words).fragment,
+            instances=structure.instances,
+        )
 
     def _compiled(self, composed: Composed, *, by: float) -> Compiled:
         if composed.text not in self._kept:
@@ -205,7 +213,7 @@ class Programs:
         return self._kept[composed.text]
 
     def _compile(self, composed: Composed) -> Compiled:
-        vertex = compose(self.root, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
+        vertex = compose(self.roots, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
         try:
             program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
         except moderngl.Error as error:
@@ -217,7 +225,8 @@ class Programs:
         return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []))
 
     def _times(self) -> tuple:
-        return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in self.root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert")))
+        files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert"))
+        return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in files))
 
 
 def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:

@@ -1,6 +1,11 @@
-"""What is to be seen: frozen records, their schema, and presets (TOML ↔ scene)."""
+"""What is to be seen: frozen records, named instances, their schema, and presets (TOML ↔ scene)."""
 
-from .records import Camera, Disk, Hole, Playback, Post, Rays, Scene, Sky, fields
+from .frozen import FrozenMap
+from .instances import Instance
+from .records import Scene, fields
 from .schema import Field, SceneError, Value, nearest_key
+from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky
 
-__all__ = ["Camera", "Disk", "Field", "Hole", "Playback", "Post", "Rays", "Scene", "SceneError", "Sky", "Value", "fields", "nearest_key"]
+__all__ = [
+    "Camera", "Disk", "Field", "FrozenMap", "Hole", "Instance", "Playback", "Post", "Rays", "Scene", "SceneError", "Sky", "Value", "fields", "nearest_key",
+]  # fmt: skip

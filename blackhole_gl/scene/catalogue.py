@@ -1,90 +1,43 @@
-"""What the GLSL plug-ins declare in their headers, and which of them fit together.
+"""All plug-ins that there are, shipped and the user's own, and which of them fit together.
 
-A plug-in is one file under ``shaders/``; its header is TOML inside ``/*--- … ---*/``. Its key is the file's stem.
+A plug-in is one file under ``shaders/``; its header is TOML inside ``/*--- … ---*/``. Its key is the file's stem. The user's lie in the same
+folders below the configuration folder's ``shaders/``. A mistake in a shipped header is ours and is raised; one in a user's leaves that
+plug-in out, and `mistakes` tells of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Generic, Literal, TypeVar, overload
+from typing import Any, Literal, overload
 
-from ..resources import shaders_dir
-from . import headers
+from ..resources import shaders_dir, user_shaders_dir
+from . import plug_in as reading
 from .headers import CatalogueError
+from .plug_in import KIND, SLOTS, SWITCH, PlugIn, Slot
 from .schema import Field, nearest
-from .tables import Number, Table
-from .traits import IntegratorTraits, NoTraits, RayModelTraits, StepControlTraits, Traits
+from .sections import declared
+from .traits import DiskLayerTraits, IntegratorTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits
+
+__all__ = [
+    "KIND", "SLOTS", "SWITCH", "Catalogue", "CatalogueError", "PlugIn", "Slot",
+    "keys", "layer_fields", "mistakes", "parameter_fields", "plug_ins", "read", "reasons_against",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
-class Slot:
-    """A place that plug-ins fit.
+class Catalogue:
+    """What was found.
 
     Attributes:
-        folder: under ``shaders/``.
-        section: of the scene, which their parameters belong to.
-        traits: the class of what their headers say beside parameters.
+        plug_ins: slot → key → plug-in, in the headers' ``rank`` (then name) order.
+        mistakes: why plug-ins of the user's were left out.
     """
 
-    folder: str
-    section: str
-    traits: type[Traits] = NoTraits
-
-
-SLOTS: Mapping[str, Slot] = {
-    "ray_model": Slot("ray_models", "rays", RayModelTraits),
-    "integrator": Slot("integrators", "rays", IntegratorTraits),
-    "step_control": Slot("step_controls", "rays", StepControlTraits),
-    "disk_layer": Slot("disks", "disk"),
-    "sky": Slot("skies", "sky"),
-}
-
-_DECLARED = ("parameters", "tables", "numbers")
-
-T = TypeVar("T", bound=Traits)
-
-
-@dataclass(frozen=True)
-class _About:
-    """The entries that every header has."""
-
-    label: str
-    summary: str
-    source: str
-    slot: str
-    rank: float = 100.0
-
-
-@dataclass(frozen=True)
-class PlugIn(Generic[T]):
-    """One GLSL plug-in.
-
-    Attributes:
-        key: the file's stem, as scenes name it.
-        slot: the place it fits, a key of `SLOTS`.
-        path: path below ``shaders/``, with forward slashes.
-        label, summary, source: what people read.
-        rank: its place in lists, smallest first.
-        traits: what else its header says, a record of its slot.
-        parameters: its scene fields, by dotted key.
-        tables: the textures it looks things up in.
-        numbers: what it has worked out for every frame.
-    """
-
-    key: str
-    slot: str
-    path: str
-    label: str
-    summary: str
-    source: str
-    rank: float
-    traits: T
-    parameters: Mapping[str, Field] = field(default_factory=dict)
-    tables: tuple[Table, ...] = ()
-    numbers: tuple[Number, ...] = ()
+    plug_ins: Mapping[str, Mapping[str, PlugIn[Any]]]
+    mistakes: tuple[CatalogueError, ...]
 
 
 @overload
@@ -94,21 +47,25 @@ def plug_ins(slot: Literal["integrator"]) -> Mapping[str, PlugIn[IntegratorTrait
 @overload
 def plug_ins(slot: Literal["step_control"]) -> Mapping[str, PlugIn[StepControlTraits]]: ...
 @overload
+def plug_ins(slot: Literal["disk_layer"]) -> Mapping[str, PlugIn[DiskLayerTraits]]: ...
+@overload
+def plug_ins(slot: Literal["thing"]) -> Mapping[str, PlugIn[ThingTraits]]: ...
+@overload
+def plug_ins(slot: Literal["sky", "medium"]) -> Mapping[str, PlugIn[NoTraits]]: ...
+@overload
 def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]: ...
 def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]:
     """All plug-ins of `slot` by key, in the headers' ``rank`` (then name) order.
 
     Raises:
-        CatalogueError: a header cannot be read, or says what it may not.
+        CatalogueError: a shipped header cannot be read, or says what it may not.
     """
-    return _plug_ins(slot)
+    return _catalogue().plug_ins[slot]
 
 
-@cache
-def _plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]:
-    found = [_read(path, slot) for path in sorted((shaders_dir() / SLOTS[slot].folder).glob("*.glsl"))]
-    found.sort(key=lambda plug_in: (plug_in.rank, plug_in.key))
-    return {plug_in.key: plug_in for plug_in in found}
+def mistakes() -> tuple[CatalogueError, ...]:
+    """Why plug-ins in the user's folder were left out, a sentence each."""
+    return _catalogue().mistakes
 
 
 def keys(slot: str) -> tuple[str, ...]:
@@ -117,8 +74,19 @@ def keys(slot: str) -> tuple[str, ...]:
 
 
 def parameter_fields() -> dict[str, Field]:
-    """The scene fields that plug-ins declare, by dotted key."""
-    return {key: item for slot in SLOTS for plug_in in plug_ins(slot).values() for key, item in plug_in.parameters.items()}
+    """The scene fields that plug-ins declare, by dotted key; not those of kinds, which belong to instances."""
+    return {
+        key: item for slot, place in SLOTS.items() if not place.of_kinds for plug_in in plug_ins(slot).values() for key, item in plug_in.parameters.items()
+    }
+
+
+def layer_fields() -> dict[str, Field]:
+    """The switches of the disk's layers, by dotted key."""
+    found = {}
+    for layer in plug_ins("disk_layer").values():
+        key = f"{SLOTS['disk_layer'].section}.{layer.key}"
+        found[key] = Field(key, "switch", layer.traits.enabled, help=f"Layer: {layer.summary}")
+    return found
 
 
 def reasons_against(model: str, integrator: str, step_control: str) -> list[str]:
@@ -139,62 +107,59 @@ def reasons_against(model: str, integrator: str, step_control: str) -> list[str]
     return reasons
 
 
-def _read(path: Path, slot: str) -> PlugIn[Any]:
-    header = headers.read_header(path.read_text(encoding="utf-8"), path.name)
-    place, kind = SLOTS[slot], SLOTS[slot].traits
-    of_all, of_slot = headers.entry_names(_About), headers.entry_names(kind)
-    headers.refuse_unknown(header, (*of_all, *of_slot, *_DECLARED), path.name)
-    about = headers.record(_About, {name: entry for name, entry in header.items() if name in of_all}, path.name)
-    if about.slot != slot:
-        raise CatalogueError(f"{path.name}: slot is {about.slot!r}, but its folder holds {slot!r}")
-    traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, path.name)
-    if isinstance(traits, RayModelTraits):
-        _refuse_unknown_control(traits, path.name)
-    declared = {part: _declared(header, part, path.name) for part in _DECLARED}
-    parameters = [_parameter(f"{place.section}.{path.stem}.{name}", entry, path.name) for name, entry in declared["parameters"].items()]
-    return PlugIn(
-        path.stem,
-        slot,
-        path.relative_to(shaders_dir()).as_posix(),
-        about.label,
-        about.summary,
-        about.source,
-        about.rank,
-        traits,
-        {parameter.key: parameter for parameter in parameters},
-        *(
-            tuple(headers.record(kind, entries, f"{path.name}: {name}", name=name, file=path.name) for name, entries in declared[part].items())
-            for part, kind in (("tables", Table), ("numbers", Number))
-        ),
-    )
+@cache
+def _catalogue() -> Catalogue:
+    return read(shaders_dir(), user_shaders_dir())
 
 
-def _declared(header: Mapping[str, Any], part: str, file: str) -> Mapping[str, Mapping[str, Any]]:
-    """The tables below ``[parameters]``, ``[tables]`` or ``[numbers]``, by name."""
-    entries = headers.table(header.get(part, {}), f"{file}: {part}")
-    return {name: headers.table(entry, f"{file}: {part}.{name}") for name, entry in entries.items()}
+def read(shipped: Path, own: Path) -> Catalogue:
+    """All plug-ins below the shader folders `shipped` and `own`, the user's.
+
+    Raises:
+        CatalogueError: a shipped one has a mistake.
+    """
+    reader = _Reader()
+    for slot in _READING_ORDER:
+        for file in sorted((shipped / SLOTS[slot].folder).glob("*.glsl")):
+            reader.add(file, shipped, slot, file.name)
+    mistakes = []
+    for slot in _READING_ORDER:
+        for file in sorted((own / SLOTS[slot].folder).glob("*.glsl")):
+            try:
+                reader.add(file, own, slot, str(file))
+            except CatalogueError as error:
+                mistakes.append(error)
+    ordered = {slot: dict(sorted(reader.found[slot].items(), key=lambda entry: (entry[1].rank, entry[0]))) for slot in SLOTS}
+    return Catalogue(ordered, tuple(mistakes))
 
 
-def _refuse_unknown_control(traits: RayModelTraits, file: str) -> None:
-    known = keys("step_control")
-    if traits.step_control is not None and traits.step_control not in known:
-        raise CatalogueError(f"{file}: step_control: got {traits.step_control!r}; allowed is one of {', '.join(known)}{nearest(traits.step_control, known)}")
+# Ray models last: each names a step control, which has to be there.
+_READING_ORDER = tuple(sorted(SLOTS, key=lambda slot: slot == "ray_model"))
 
 
-def _parameter(key: str, entry: Mapping[str, Any], file: str) -> Field:
-    try:
-        default = entry["default"]
-        text = entry["help"]
-    except KeyError as missing:
-        raise CatalogueError(f"{file}: parameter {key} lacks {missing}") from None
-    physical = entry.get("physical")
-    if isinstance(default, bool):
-        return Field(key, "switch", default, help=text, physical=physical)
-    kind = "int" if isinstance(default, int) else "float"
-    try:
-        low, high = entry["range"]
-    except (KeyError, ValueError):
-        raise CatalogueError(f"{file}: parameter {key} needs range = [low, high]") from None
-    item = Field(key, kind, default, low, high, entry.get("unit", ""), text, physical=physical)
-    item.check(default)
-    return item
+class _Reader:
+    """What has been read, and the names that are taken by it."""
+
+    def __init__(self) -> None:
+        self.found: dict[str, dict[str, PlugIn[Any]]] = {slot: {} for slot in SLOTS}
+        self._owners = {key.replace(".", "_"): f"the scene's {key}" for key in declared()}
+
+    def add(self, file: Path, root: Path, slot: str, place: str) -> None:
+        """Reads one more plug-in, whose names in scenes and in GLSL have to be its own."""
+        known = self.found[slot].get(file.stem)
+        if known is not None:
+            raise CatalogueError(f"{place}: {slot} {file.stem!r} is there already, in {known.file}; another file name makes another key")
+        made = reading.read(file, root, slot, place)
+        if isinstance(made.traits, RayModelTraits) and made.traits.step_control is not None:
+            self._refuse_unknown_control(made.traits.step_control, place)
+        names = [] if SLOTS[slot].of_kinds else [f"{SLOTS[slot].section}_{made.key}", *(item.glsl_name for item in made.parameters.values())]
+        for name in names:
+            if name in self._owners:
+                raise CatalogueError(f"{place}: its name {name} in GLSL is that of {self._owners[name]}; another file name or parameter name is needed")
+        self._owners |= {name: f"{slot} {made.key!r}, {made.file}" for name in names}
+        self.found[slot][made.key] = made
+
+    def _refuse_unknown_control(self, given: str, place: str) -> None:
+        known = self.found["step_control"]
+        if given not in known:
+            raise CatalogueError(f"{place}: step_control: got {given!r}; allowed is one of {', '.join(known)}{nearest(given, known)}")

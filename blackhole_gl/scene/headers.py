@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import tomllib
 import types
 from collections.abc import Iterable, Mapping
@@ -12,6 +13,9 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 from .schema import nearest
 
 T = TypeVar("T")
+
+NAMES = "names of letters, digits and single _ between them, that begin with a letter"
+"""What `is_name` allows, in words."""
 
 
 class CatalogueError(ValueError):
@@ -65,6 +69,11 @@ def record(kind: type[T], entries: Mapping[str, Any], place: str, **known: Any) 
         return kind(**values)
     except ValueError as error:
         raise CatalogueError(f"{place}: {error}") from None
+
+
+def is_name(text: str) -> bool:
+    """Whether `text` can be part of a scene's key and of a GLSL identifier."""
+    return re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", text) is not None
 
 
 def entry_names(kind: type) -> tuple[str, ...]:
@@ -130,7 +139,10 @@ def _allowed(hint: Any) -> str:
         return "one of " + ", ".join(get_args(hint))
     if origin is tuple:
         return f"a list, each of it {_allowed(get_args(hint)[0])}"
-    return {bool: "true or false", int: "a whole number", float: "a number", str: "text in quotes"}[hint]
+    return _WORDS_FOR[hint]
+
+
+_WORDS_FOR = {bool: "true or false", int: "a whole number", float: "a number", str: "text in quotes", list: "a list", dict: "a table"}
 
 
 def _words(hint: Any) -> tuple[str, ...]:

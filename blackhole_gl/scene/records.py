@@ -1,141 +1,23 @@
 """The scene: what is to be seen, as frozen records with ranges and units.
 
-Lengths are in Schwarzschild radii (r_s = 2GM/c² = 1), times in r_s/c, angles in degrees where the key ends in ``_deg``.
-Every value has a dotted key, ``<section>.<name>`` or, for a plug-in's parameter, ``<section>.<plug-in>.<name>``.
+Every value has a dotted key: ``<section>.<name>``, for a plug-in's parameter ``<section>.<plug-in>.<name>``, for an instance's
+``things.<instance>.<name>``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from dataclasses import fields as record_fields
-from functools import cache
+from functools import cache, lru_cache
 from operator import attrgetter
 from types import MappingProxyType
 from typing import Any
 
-from . import catalogue
+from . import catalogue, instances, sections
+from .frozen import FrozenMap
+from .instances import Instances, Place
 from .schema import Field, SceneError, Value, nearest_key
-
-__all__ = ["Scene", "Hole", "Camera", "Rays", "Disk", "Sky", "Post", "Playback", "SceneError", "fields"]
-
-
-def number(default: float | int, low: float, high: float, unit: str = "", help: str = "", *, physical: float | None = None, allow_infinity: bool = False):
-    """A record field that holds a number in the closed range low…high."""
-    kind = "int" if isinstance(default, int) else "float"
-    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity)
-    return field(default=default, metadata=facts)
-
-
-def switch(default: bool, help: str = "", *, physical: bool | None = None):
-    """A record field that is on or off."""
-    return field(default=default, metadata=dict(kind="switch", help=help, physical=physical))
-
-
-def choice(default: str, options: tuple[str, ...] | str, help: str = "", *, physical: str | None = None):
-    """A record field that names one of `options`; a string names the catalogue slot whose plug-ins are the options.
-
-    With the default ``auto``, that word is an option too: the plan chooses.
-    """
-    return field(default=default, metadata=dict(kind="choice", options=options, help=help, physical=physical))
-
-
-@dataclass(frozen=True)
-class Hole:
-    """The black hole."""
-
-    spin: float = number(0.0, -0.9999, 0.9999, "a*", "Angular momentum J c/(G M²). Negative turns clockwise seen from +z.")
-    gravity_strength: float = number(1.0, 0.1, 10.0, "×", "Multiplies the bending of light in the marched models; 1 is physics, all else is art.", physical=1.0)
-    horizon_size: float = number(1.0, 0.01, 1.0, "r_s", "Radius at which the marched models take a ray as captured; 1 is the Schwarzschild horizon.", physical=1.0)
-
-
-@dataclass(frozen=True)
-class Camera:
-    """The observer and its picture."""
-
-    distance: float = number(20.0, 0.5001, 1e4, "r_s", "Boyer–Lindquist (areal) radius of the camera, above the horizon: 1 without spin, down to 0.5 with. inf is a far observer with parallel rays.", allow_infinity=True)
-    inclination_deg: float = number(80.0, 0.0, 180.0, "°", "Angle from the spin axis: 0 above the north pole, 90 in the disk's plane.")
-    azimuth_deg: float = number(0.0, -360.0, 360.0, "°", "Azimuth of the camera about the spin axis, counter-clockwise seen from +z.")
-    yaw_deg: float = number(0.0, -180.0, 180.0, "°", "Turns the view to the right, away from the hole.")
-    pitch_deg: float = number(0.0, -90.0, 90.0, "°", "Turns the view up, away from the hole.")
-    roll_deg: float = number(0.0, -180.0, 180.0, "°", "Turns the camera clockwise about its line of sight.")
-    fov_deg: float = number(45.0, 1.0, 150.0, "°", "Vertical angle of view.")
-    field_m: float = number(30.0, 0.1, 1e4, "M", "Height of the picture when the camera is infinitely far.")
-    observer: str = choice("static", ("static", "zamo"), "How the camera moves: at rest, or with zero angular momentum (ZAMO), dragged round by a spinning hole. In the ergosphere nothing can rest: there the static observer gives way to the ZAMO.")
-
-
-@dataclass(frozen=True)
-class Rays:
-    """How light is traced."""
-
-    model: str = choice("auto", "ray_model", "The space-time and the form of its light rays; auto: the cheapest that the tolerance allows, by the chart's measurements.")
-    integrator: str = choice("auto", "integrator", "One step of a marched model; auto as above.")
-    step_control: str = choice("auto", "step_control", "How long the next step is; auto: what suits the model.")
-    tolerance: float = number(0.5, 0.001, 100.0, "px", "Error allowed at 99 % of the pixels of a picture 1080 high, for what is chosen automatically.")
-    step_length: float = number(0.0, 0.0, 2.0, "r_s", "Length Δt₀ of a Cartesian step (at r = 3 r_s where the step follows the radius); 0: from the tolerance.")
-    step_angle: float = number(0.0, 0.0, 0.8, "rad", "Angular step κ of models that march in angles; halving it divides the error by about 16; 0: from the tolerance.")
-    max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
-    orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
-    refine: bool = switch(True, "While the camera moves, trace a coarse grid of exact rays and interpolate between them where the tolerance allows; at rest every pixel gets its own.")
-    lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
-
-
-@dataclass(frozen=True)
-class Disk:
-    """The thin accretion disk in the plane z = 0."""
-
-    enabled: bool = switch(True, "Show the disk.")
-    inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
-    outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge.")
-    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Thickness of the look layers' pattern; the disk itself is thin.")
-    orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
-    temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
-    temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
-    frequency_shift: str = choice("exact", ("exact", "s0", "s1"), "The g-factor: exact, or the formula of an older viewer.", physical="exact")
-    beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
-    doppler_colour: bool = switch(True, "Shift the colour by the motion of the matter.", physical=True)
-    beaming: bool = switch(True, "Brighten what approaches, dim what recedes.", physical=True)
-    redshift: bool = switch(True, "Redden and dim what climbs out of the well.", physical=True)
-    compositing: str = choice("opacity", ("additive", "opacity"), "Whether crossings add up or nearer ones hide farther ones.")
-    opacity: float = number(0.85, 0.0, 1.0, "", "How much of what lies behind a crossing is hidden, where the disk is dense.")
-    emission_strength: float = number(0.18, 0.0, 2.0, "", "Brightness of the disk.")
-    density_gain: float = number(9200.0, 0.0, 40000.0, "", "Contrast of the look layers.")
-    noise_scale: float = number(0.68, 0.01, 5.0, "1/r_s", "Frequency of the coarsest pattern of the look layers.")
-    noise_speed: float = number(0.7, 0.0, 5.0, "×", "How fast the look layers' pattern orbits; 1 is the Keplerian rate.")
-    point_field: bool = switch(False, "Layer: a rotating field of bright points.")
-    turbulence: bool = switch(True, "Layer: octaves of sheared noise.")
-
-
-@dataclass(frozen=True)
-class Sky:
-    """What lies behind everything."""
-
-    enabled: bool = switch(True, "Show stars and galaxy.")
-    model: str = choice("procedural", "sky", "Where the sky's radiance comes from.")
-    brightness: float = number(1.0, 0.0, 10.0, "×", "Brightness of the whole sky.")
-
-
-@dataclass(frozen=True)
-class Post:
-    """From scene radiance to the picture on the screen."""
-
-    view: str = choice("picture", ("picture", "steps", "order", "g_factor", "difference", "conservation", "unresolved"), "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, displacement from the most accurate method, drift of conserved quantities, unresolved rays.")
-    exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light.")
-    bloom: bool = switch(True, "Glow around bright places, as in a lens.")
-    bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")
-    bloom_intensity: float = number(0.45, 0.0, 2.0, "", "Strength of the glow.")
-    bloom_spread: float = number(1.0, 0.1, 3.0, "×", "Width of the glow.")
-    tone_map: str = choice("aces", ("linear", "reinhard", "aces", "agx"), "How scene radiance becomes screen brightness.")
-    gamma: float = number(1.0, 0.2, 3.0, "", "Creative gamma on top of the screen's own.")
-    dither: bool = switch(True, "Noise of less than one grey level against banding in the dark sky.")
-
-
-@dataclass(frozen=True)
-class Playback:
-    """How scene time runs in the window."""
-
-    rate: float = number(4.0, 0.0, 100.0, "(r_s/c)/s", "Scene time that passes in one second.")
-    target_fps: float = number(30.0, 0.0, 120.0, "fps", "Frame rate that a moving camera holds by drawing fewer pixels; a resting one before a turning disk keeps about half of it. At rest every pixel is drawn. 0: off, always full resolution.")
+from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky
 
 
 @dataclass(frozen=True)
@@ -143,7 +25,8 @@ class Scene:
     """All that a picture depends on but the time and the size.
 
     Attributes:
-        parameters: values of plug-in parameters by dotted key; those not listed have their defaults.
+        parameters: values of plug-in parameters and of the disk's layers' switches by dotted key; those not listed have their defaults.
+        things, media: named instances, of kinds that plug-ins are.
     """
 
     hole: Hole = Hole()
@@ -154,6 +37,8 @@ class Scene:
     post: Post = Post()
     playback: Playback = Playback()
     parameters: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}), hash=False)
+    things: Instances = FrozenMap()
+    media: Instances = FrozenMap()
 
     def get(self, key: str) -> Value:
         """The value of `key`.
@@ -162,31 +47,85 @@ class Scene:
             SceneError: no such key.
         """
         getter = _getters().get(key)
-        return getter(self) if getter else self.parameters.get(key, _field(key).default)
+        if getter is not None:
+            return getter(self)
+        known = fields().get(key)
+        if known is not None:
+            return self.parameters.get(key, known.default)
+        place = instances.place_of(self.field(key).key)
+        instance = getattr(self, place.section)[place.name]
+        return instance.kind if place.parameter == catalogue.KIND else instance.values[place.parameter]
+
+    def field(self, key: str) -> Field:
+        """What `key` may be in this scene.
+
+        Raises:
+            SceneError: no such key; the nearest known one is named.
+        """
+        place = instances.place_of(key)
+        return _field(key) if place is None else instances.field_of(place, getattr(self, place.section))
+
+    def fields(self) -> Mapping[str, Field]:
+        """Every settable field of this scene by dotted key: the module function's `fields`, then those of its instances."""
+        if not self.things and not self.media:
+            return fields()
+        return _fields_with(self.things, self.media)
+
+    def keys(self) -> tuple[str, ...]:
+        """Every key, in the order of `fields`."""
+        return tuple(self.fields())
+
+    def values(self) -> dict[str, Value]:
+        """Every key's value, in the order of `fields`."""
+        return {key: self.get(key) for key in self.fields()}
 
     def with_values(self, values: Mapping[str, Any]) -> Scene:
-        """This scene with `values` (dotted key → value) put in.
+        """This scene with `values` (dotted key → value) put in. An instance is made by its kind, ``things.moon.kind``.
 
         Raises:
             SceneError: an unknown key (the nearest known one is named) or a value that its field does not take.
         """
-        sections: dict[str, dict[str, Value]] = {}
+        records: dict[str, dict[str, Value]] = {}
+        placed: dict[str, list[tuple[Place, Any]]] = {}
         parameters = dict(self.parameters)
         for key, given in values.items():
+            place = instances.place_of(key)
+            if place is not None:
+                placed.setdefault(place.section, []).append((place, given))
+                continue
             value = _field(key).check(given)
-            if key in _core_fields():
+            if key in _getters():
                 section, name = key.split(".")
-                sections.setdefault(section, {})[name] = value
+                records.setdefault(section, {})[name] = value
             elif value == _field(key).default:
                 parameters.pop(key, None)
             else:
                 parameters[key] = value
-        changed = {section: replace(getattr(self, section), **entries) for section, entries in sections.items()}
-        return replace(self, parameters=MappingProxyType(parameters), **changed)
+        changed = {section: replace(getattr(self, section), **entries) for section, entries in records.items()}
+        made = {section: instances.changed(section, getattr(self, section), entries) for section, entries in placed.items()}
+        return replace(self, parameters=MappingProxyType(parameters), **changed, **made)
 
-    def values(self) -> dict[str, Value]:
-        """Every key's value, in the order of `fields`."""
-        return {key: self.get(key) for key in fields()}
+    def without(self, path: str) -> Scene:
+        """This scene less the instance ``things.moon``.
+
+        Raises:
+            SceneError: there is no such instance.
+        """
+        place = _instance(path)
+        return replace(self, **{place.section: instances.without(place, getattr(self, place.section))})
+
+    def renamed(self, path: str, name: str) -> Scene:
+        """This scene with the instance ``things.moon`` called `name`.
+
+        Raises:
+            SceneError: there is no such instance, or the name is taken or no name.
+        """
+        place = _instance(path)
+        return replace(self, **{place.section: instances.renamed(place, getattr(self, place.section), name)})
+
+    def disk_layers(self) -> tuple[str, ...]:
+        """The keys of the disk's layers that are switched on."""
+        return tuple(key for key, switch in _layer_switches() if self.get(switch))
 
     def __reduce__(self):
         return _restore, (self.values(),)
@@ -196,32 +135,54 @@ def _restore(values: Mapping[str, Value]) -> Scene:
     return Scene().with_values(values)
 
 
+def _instance(path: str) -> Place:
+    place = instances.place_of(path)
+    if place is None or place.parameter:
+        raise SceneError(path, f"no instance; allowed are names like {', '.join(f'{section}.NAME' for section in instances.SLOTS)}")
+    return place
+
+
 @cache
 def fields() -> Mapping[str, Field]:
-    """Every settable field by dotted key: the records' own, then the plug-ins'."""
-    return MappingProxyType({**_core_fields(), **catalogue.parameter_fields()})
+    """Every field that all scenes have by dotted key: the records' own and the disk's layers' switches, then the plug-ins' parameters."""
+    found: dict[str, Field] = {}
+    for section in sections.SECTIONS:
+        found |= {key: item for key, item in _record_fields().items() if key.startswith(f"{section}.")}
+        if section == catalogue.SLOTS["disk_layer"].section:
+            found |= catalogue.layer_fields()
+    return MappingProxyType({**found, **catalogue.parameter_fields()})
+
+
+@lru_cache(maxsize=64)
+def _fields_with(things: Instances, media: Instances) -> Mapping[str, Field]:
+    found = dict(fields())
+    for section, named in (("things", things), ("media", media)):
+        for name, instance in named.items():
+            found |= {item.key: item for item in instances.fields_of(Place(section, name), instance.kind).values()}
+    return MappingProxyType(found)
 
 
 @cache
-def _core_fields() -> Mapping[str, Field]:
+def _record_fields() -> Mapping[str, Field]:
     found = {}
-    for section in record_fields(Scene):
-        if section.name == "parameters":
-            continue
-        for item in record_fields(section.default):
-            facts = dict(item.metadata)
-            options = facts.pop("options", ())
-            if isinstance(options, str):
-                options = (("auto",) if item.default == "auto" else ()) + catalogue.keys(options)
-            key = f"{section.name}.{item.name}"
-            found[key] = Field(key, default=item.default, options=options, **facts)
+    for key, facts in sections.declared().items():
+        options = facts.get("options", ())
+        if isinstance(options, str):
+            options = (("auto",) if facts["default"] == "auto" else ()) + catalogue.keys(options)
+        found[key] = Field(key, **{**facts, "options": options})
     return MappingProxyType(found)
 
 
 @cache
 def _getters() -> Mapping[str, Callable[[Scene], Value]]:
     """What reads the value of each of the records' own fields. Every frame asks for all of them."""
-    return {key: attrgetter(key) for key in _core_fields()}
+    return {key: attrgetter(key) for key in _record_fields()}
+
+
+@cache
+def _layer_switches() -> tuple[tuple[str, str], ...]:
+    """(layer, the key of its switch) of every layer of the disk."""
+    return tuple(zip(catalogue.keys("disk_layer"), catalogue.layer_fields()))
 
 
 def _field(key: str) -> Field:

@@ -92,8 +92,43 @@ class StepControlTraits:
 
 
 @dataclass(frozen=True)
+class DiskLayerTraits:
+    """A disk layer.
+
+    Attributes:
+        enabled: whether it is on in a scene that does not say.
+    """
+
+    enabled: bool = False
+
+
+@dataclass(frozen=True)
+class ThingTraits:
+    """A kind of thing that rays may meet.
+
+    Attributes:
+        reach: parameters the sum of whose sizes no part of a thing is farther from the hole than, in r_s.
+        opaque: whether nothing shines through it.
+    """
+
+    reach: tuple[str, ...]
+    opaque: bool = True
+
+
+@dataclass(frozen=True)
+class MediumTraits:
+    """A kind of medium that rays may go through.
+
+    Attributes:
+        reach: as of a thing.
+    """
+
+    reach: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class NoTraits:
     """Of slots whose plug-ins have nothing to say but what people read, and their parameters."""
 
 
-Traits = RayModelTraits | IntegratorTraits | StepControlTraits | NoTraits
+Traits = RayModelTraits | IntegratorTraits | StepControlTraits | DiskLayerTraits | ThingTraits | MediumTraits | NoTraits

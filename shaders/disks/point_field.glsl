@@ -4,6 +4,7 @@ summary = "A dense rotating field of bright points, with a few boosted rings."
 source = "S0: points with radial tapers, mass biased to small radii, turbulence, narrow ring boosts of high gain"
 slot = "disk_layer"
 rank = 10
+enabled = false
 
 [parameters.share]
 default = 0.75

@@ -91,9 +91,18 @@ class Piece:
         switches, uniforms: what differs from SWITCHES and UNIFORMS; uniforms of the shader's own are set too.
     """
 
-    def __init__(self, ctx: moderngl.Context, path: str | Path, *, chosen: Mapping[str, Sequence[str]] | None = None, switches: Mapping[str, int] | None = None, **uniforms: Any):
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        path: str | Path,
+        *,
+        chosen: Mapping[str, Sequence[str]] | None = None,
+        switches: Mapping[str, int] | None = None,
+        **uniforms: Any,
+    ):
         blocks = "\n".join(f"uniform {kind} {name};" for name, (kind, _) in UNIFORMS.items())
-        composed = compose(shaders_dir(), str(path), chosen={"disk_layer": [], "sky": [], **(chosen or {})}, switches={**SWITCHES, **(switches or {})}, blocks=lambda _: blocks)
+        slots = {"disk_layer": [], "sky": [], **(chosen or {})}
+        composed = compose((shaders_dir(),), str(path), chosen=slots, switches={**SWITCHES, **(switches or {})}, blocks=lambda _: blocks)
         try:
             self.program = ctx.program(vertex_shader=VERTEX, fragment_shader=composed.text)
         except moderngl.Error as error:

@@ -11,13 +11,13 @@ from blackhole_gl.glsl.compose import Composed, ShaderError, compose
 
 @pytest.fixture
 def shaders(tmp_path: Path):
-    def write(**files: str) -> Path:
+    def write(**files: str) -> tuple[Path]:
         for name, text in files.items():
             path = tmp_path / name.replace("__", "/")
             path = path.with_suffix(".glsl") if not path.suffix else path
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        return tmp_path
+        return (tmp_path,)
 
     return write
 
@@ -35,7 +35,8 @@ def test_includes_of_each_other_end(shaders):
 
 
 def test_directives_in_comments_are_left_alone(shaders):
-    text = '/* #include "missing.glsl"\n#include "missing.glsl"\n*/ int a;\n// #include "missing.glsl"\n/* */ /* open\n#slot nothing\n*/\nint b; // /*\nint c;\n'
+    text = '/* #include "missing.glsl"\n#include "missing.glsl"\n*/ int a;\n// #include "missing.glsl"\n'
+    text += "/* */ /* open\n#slot nothing\n*/\nint b; // /*\nint c;\n"
     assert compose(shaders(main=text), "main.glsl").text == text
 
 
@@ -81,9 +82,26 @@ def test_mistakes_in_directives_are_named(shaders, text, place, words):
     assert str(caught.value).startswith(f"{place[0]}:{place[1]}: ")
 
 
+def test_a_second_folder_adds_files_and_replaces_none(tmp_path):
+    shipped, own = tmp_path / "shipped", tmp_path / "own"
+    shipped.mkdir()
+    own.mkdir()
+    (shipped / "main.glsl").write_text('#include "a.glsl"\n#include "b.glsl"\n', encoding="utf-8")
+    (shipped / "a.glsl").write_text("int a;\n", encoding="utf-8")
+    (own / "a.glsl").write_text("int other;\n", encoding="utf-8")
+    (own / "b.glsl").write_text('#include "a.glsl"\nint b;\n#include "c.glsl"\n', encoding="utf-8")
+    with pytest.raises(ShaderError, match="no shader file c.glsl") as caught:
+        compose((shipped, own), "main.glsl")
+    assert (caught.value.file, caught.value.line) == (str(own / "b.glsl"), 3), "a file of the user's is named by its whole path"
+    (own / "c.glsl").write_text("int c;\n", encoding="utf-8")
+    made = compose((shipped, own), "main.glsl")
+    assert made.text == "int a;\nint b;\nint c;\n"
+    assert [file for file, _ in made.places] == ["a.glsl", str(own / "b.glsl"), str(own / "c.glsl")]
+
+
 def test_a_missing_main_file_has_no_place(tmp_path):
     with pytest.raises(ShaderError) as caught:
-        compose(tmp_path, "none.frag")
+        compose((tmp_path,), "none.frag")
     assert caught.value.file == "" and "none.frag" in str(caught.value)
 
 

@@ -9,9 +9,12 @@ for each section of the scene::
     [disk.turbulence]       # a plug-in's parameters
     enabled = true          # the switch disk.turbulence itself; `turbulence = true` in [disk] says the same
     strength = 0.8
+    [things.moon]           # a named instance; a preset layered over this one may change it without saying its kind again
+    kind = "sphere"
 
 Presets are layered: physics, then look, then quality, then single values; the later one wins. A picture saved by us is a
-preset too. Whatever is wrong with one is a `PresetError` that names the file, the key, the value given and what is allowed.
+preset too. Paths in a preset start at its own folder. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
+given and what is allowed.
 """
 
 from __future__ import annotations
@@ -24,9 +27,11 @@ from typing import Any
 
 from ...output import png
 from ...resources import presets_dir, user_config_dir
-from .. import Scene, fields
-from ..schema import SceneError, Value
-from .reading import GROUPS, Preset, PresetError, check_value, message_of, parse, unknown_key
+from .. import Scene, fields, instances
+from ..catalogue import KIND
+from ..schema import SceneError
+from . import paths
+from .reading import GROUPS, Preset, PresetError, parse, unknown_key
 from .writing import dumps, picture_text, save
 
 __all__ = [
@@ -98,7 +103,8 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
 
     Args:
         names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``).
-        overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``.
+        overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``; lists as in TOML, paths from
+            the working folder.
 
     Raises:
         PresetError: see `read`; or an override is wrong.
@@ -107,12 +113,10 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
     layers = [read(item) for item in wanted]
     if all(layer.group in _PARTIAL_GROUPS for layer in layers):
         layers = [read(item) for item in DEFAULT_PRESETS] + layers
-    values: dict[str, Value] = {}
+    scene = Scene()
     for layer in layers:
-        values.update(layer.values)
-    for key, given in (overrides or {}).items():
-        values[key] = _override(key, given)
-    return Scene().with_values(values)
+        scene = layer.over(scene)
+    return _overridden(scene, overrides or {})
 
 
 def parse_assignments(assignments: Iterable[str]) -> dict[str, str]:
@@ -136,7 +140,7 @@ def from_png(path: str | Path) -> Scene:
     Raises:
         PresetError: no such picture, or it carries no preset, or one that this version cannot use.
     """
-    return Scene().with_values(read(Path(path)).values)
+    return read(Path(path)).over(Scene())
 
 
 def read(name_or_path: str | Path) -> Preset:
@@ -156,15 +160,22 @@ def read(name_or_path: str | Path) -> Preset:
         raise PresetError(f"cannot be read: {error.strerror or error}", source=source) from None
     except ValueError as error:
         raise PresetError(str(error), source=source) from None
-    preset = parse(text, source)
+    preset = parse(text, source, path.absolute().parent)
     return replace(preset, group=group or preset.group)
 
 
-def _override(key: str, given: Any) -> Value:
-    item = fields().get(key)
-    if item is None:
-        raise PresetError(unknown_key(key), key=key, source="--set")
-    try:
-        return item.parse(given) if isinstance(given, str) else check_value(item, given)
-    except SceneError as error:
-        raise PresetError(message_of(error), key=key, source="--set") from None
+def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:
+    """`scene` with the overrides put in, kinds first: they make the instances that others may be about."""
+    kinds = {key for key in overrides if (place := instances.place_of(key)) is not None and place.parameter == KIND}
+    for key in sorted(overrides, key=lambda key: key not in kinds):
+        given = overrides[key]
+        if instances.place_of(key) is None and key not in fields():
+            raise PresetError(unknown_key(key), key=key, source="--set")
+        try:
+            if key not in kinds:
+                item = scene.field(key)
+                given = paths.anchored(item, item.parse(given) if isinstance(given, str) else item.check(given), Path.cwd())
+            scene = scene.with_values({key: given})
+        except SceneError as error:
+            raise PresetError(error.message, key=key, source="--set") from None
+    return scene

@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import json
 import re
-import reprlib
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from pathlib import Path
 from typing import Any
 
-from .. import fields
-from ..schema import Field, SceneError, Value, nearest_key
+from .. import FrozenMap, Scene, fields, instances
+from ..catalogue import KIND, SWITCH
+from ..headers import NAMES, is_name
+from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest_key
+from . import paths
 
 GROUPS = ("physics", "look", "quality", "scene")
-# A switch that has a plug-in's parameters below it is written as this entry of their table.
-SWITCH_ENTRY = "enabled"
 _TEXT_ENTRIES = ("title", "description", "group", "version")
 _NUMBER_ENTRIES = ("rank", "time")
-# TOML promises no more; longer ones overflow float().
-_WHOLE_NUMBER_LIMIT = 2**63
 
 
 class PresetError(SceneError):
@@ -35,7 +34,7 @@ class PresetError(SceneError):
     def __init__(self, message: str, *, key: str = "", source: str = "", line: int | None = None):
         place = f"{source}, line {line}" if line else source
         ValueError.__init__(self, ": ".join(part for part in (place, key, message) if part))
-        self.key, self.source, self.line = key, source, line
+        self.key, self.message, self.entry, self.source, self.line = key, message, 0, source, line
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,11 @@ class Preset:
         group: one of `GROUPS`, or empty.
         rank: place in lists of its group, smallest first.
         time: scene time of the picture it came from, r_s/c; None for other presets.
-        values: the scene's values it sets, by dotted key, checked.
+        values: the scene's values it sets, by dotted key, checked; but those of an instance whose kind it leaves to other presets are as they
+            stand in the file.
+        source: what errors call it.
+        folder: where its relative paths start; None leaves them as they are.
+        text: the TOML it was made from.
     """
 
     title: str = ""
@@ -55,11 +58,32 @@ class Preset:
     version: str = ""
     rank: float = 100.0
     time: float | None = None
-    values: Mapping[str, Value] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
+    source: str = "preset"
+    folder: Path | None = None
+    text: str = field(default="", repr=False)
+
+    def over(self, scene: Scene) -> Scene:
+        """`scene` with what this preset sets put in.
+
+        Raises:
+            PresetError: it sets values of an instance that is not there, or that the instance's kind does not have or take.
+        """
+        try:
+            made = scene.with_values(self.values)
+        except SceneError as error:
+            raise PresetError(error.message, key=error.key, source=self.source, line=_line_of(error.key, self.text, error.entry)) from None
+        if self.folder is None:
+            return made
+        return made.with_values({key: paths.anchored(made.field(key), made.get(key), self.folder) for key in self.values})
 
 
-def parse(text: str, source: str = "preset") -> Preset:
-    """The preset in the TOML `text`; `source` is what errors call it.
+def parse(text: str, source: str = "preset", folder: Path | None = None) -> Preset:
+    """The preset in the TOML `text`.
+
+    Args:
+        source: what errors call it.
+        folder: where its relative paths start; None leaves them as they are.
 
     Raises:
         PresetError: not TOML, or an entry that a scene does not have or cannot hold.
@@ -71,7 +95,7 @@ def parse(text: str, source: str = "preset") -> Preset:
     except ValueError as error:
         # tomllib's own errors name line and column; Python's (a number of 5000 digits, say) are ValueErrors as well
         raise PresetError(f"not TOML: {error}", source=source) from None
-    return _Reader(source, text).read(data)
+    return _Reader(source, text).read(data, folder)
 
 
 class _Reader:
@@ -79,21 +103,23 @@ class _Reader:
 
     def __init__(self, source: str, text: str):
         self._source, self._text = source, text
-        self._values: dict[str, Value] = {}
+        self._values: dict[str, Any] = {}
 
-    def read(self, data: Mapping[str, Any]) -> Preset:
+    def read(self, data: Mapping[str, Any], folder: Path | None) -> Preset:
         about: dict[str, Any] = {}
         for name, value in data.items():
             if name in _TEXT_ENTRIES + _NUMBER_ENTRIES:
                 about[name] = self._about(name, value)
+            elif name in instances.SLOTS:
+                self._section_of_instances(name, value)
             else:
                 self._walk(_quoted(name), value)
-        return Preset(**about, values=self._values)
+        return Preset(**about, values=self._values, source=self._source, folder=folder, text=self._text)
 
     def _about(self, name: str, value: Any) -> str | float:
         if name in _NUMBER_ENTRIES:
             allowed = "a finite number"
-            if type(value) in (int, float) and abs(value) < _WHOLE_NUMBER_LIMIT:
+            if type(value) in (int, float) and abs(value) < WHOLE_NUMBER_LIMIT:
                 return float(value)
         elif name == "group":
             allowed = "one of " + ", ".join(GROUPS)
@@ -103,72 +129,77 @@ class _Reader:
             allowed = "text in quotes"
             if isinstance(value, str):
                 return value
-        raise self._error(name, f"got {_describe(value)}; allowed is {allowed}")
+        raise self._error(name, f"got {describe(value)}; allowed is {allowed}")
 
     def _walk(self, key: str, value: Any) -> None:
         item = fields().get(key)
         is_switch = item is not None and item.kind == "switch"
         if isinstance(value, dict) and (key in tables() or is_switch):
             for name, entry in value.items():
-                if is_switch and name == SWITCH_ENTRY:
+                if is_switch and name == SWITCH:
                     self._put(item, entry)
                 else:
                     self._walk(f"{key}.{_quoted(name)}", entry)
         elif item is not None:
             self._put(item, value)
         elif key in tables():
-            raise self._error(key, f"got {_describe(value)}; allowed is a table, [{key}]")
+            raise self._error(key, f"got {describe(value)}; allowed is a table, [{key}]")
         else:
             raise self._error(key, unknown_key(key))
 
     def _put(self, item: Field, value: Any) -> None:
         try:
-            self._values[item.key] = check_value(item, value)
+            self._values[item.key] = item.check(value)
         except SceneError as error:
-            raise self._error(item.key, message_of(error)) from None
+            raise self._error(item.key, error.message, error.entry) from None
 
-    def _error(self, key: str, message: str) -> PresetError:
-        return PresetError(message, key=key, source=self._source, line=_line_of(key, self._text))
+    def _section_of_instances(self, section: str, value: Any) -> None:
+        if not isinstance(value, dict):
+            raise self._error(section, f"got {describe(value)}; allowed is a table for each of them, [{section}.NAME]")
+        for name, entries in value.items():
+            place = instances.Place(section, name)
+            try:
+                instances.check_name(place)
+            except SceneError as error:
+                raise self._error(error.key, error.message) from None
+            if not isinstance(entries, dict):
+                raise self._error(place.path, f"got {describe(entries)}; allowed is a table, [{place.path}]")
+            self._instance(place, entries)
 
+    def _instance(self, place: instances.Place, entries: Mapping[str, Any]) -> None:
+        """What is said of one instance; without its kind no more can be seen here than that the names may be some."""
+        wrong = next((name for name in entries if not is_name(name)), None)
+        if wrong is not None:
+            raise self._error(f"{place.path}.{_quoted(wrong)}", f"no such key; allowed are {NAMES}")
+        given = {instances.Place(place.section, place.name, name): value for name, value in entries.items()}
+        if KIND in entries:
+            try:
+                made = instances.changed(place.section, FrozenMap(), given.items())[place.name]
+            except SceneError as error:
+                raise self._error(error.key, error.message, error.entry) from None
+            entries = {name: made.kind if name == KIND else made.values[name] for name in entries}
+        self._values |= {f"{place.path}.{name}": value for name, value in entries.items()}
 
-def check_value(item: Field, value: Any) -> Value:
-    """`value` in the field's own type; types that no field takes are refused here, with a short name for what was given."""
-    scalar = isinstance(value, (bool, float, str)) or (isinstance(value, int) and abs(value) < _WHOLE_NUMBER_LIMIT)
-    if not scalar:
-        raise SceneError(item.key, f"got {_describe(value)}; allowed is {item.allowed()}")
-    return item.check(value)
-
-
-def message_of(error: SceneError) -> str:
-    """What `error` says after its key."""
-    return str(error).removeprefix(f"{error.key}: ")
-
-
-def _describe(value: Any) -> str:
-    if isinstance(value, dict):
-        return "a table"
-    if isinstance(value, list):
-        return "a list"
-    if isinstance(value, int) and abs(value) >= _WHOLE_NUMBER_LIMIT:
-        return "a whole number of more than 64 bits"
-    return reprlib.repr(value) if isinstance(value, (str, int, float)) else str(value)
+    def _error(self, key: str, message: str, entry: int = 0) -> PresetError:
+        return PresetError(message, key=key, source=self._source, line=_line_of(key, self._text, entry))
 
 
 def unknown_key(key: str) -> str:
     """What to say of a key that no scene has: the nearest one, and those of its table."""
-    near = nearest_key(key, [*fields(), *tables()])
+    near = nearest_key(key, [*fields(), *tables(), *instances.SLOTS])
     hint = f"; did you mean {near}?" if near else "."
     section = key.split(".")[0]
     if section in tables():
         allowed = [known for known in fields() if known.startswith(section + ".")]
     else:
-        allowed = [*(f"[{table}]" for table in tables() if "." not in table), *_TEXT_ENTRIES, *_NUMBER_ENTRIES]
+        named = (f"[{section}.NAME]" for section in instances.SLOTS)
+        allowed = [*(f"[{table}]" for table in tables() if "." not in table), *named, *_TEXT_ENTRIES, *_NUMBER_ENTRIES]
     return f"no such key{hint} Allowed here are {', '.join(allowed)}"
 
 
 @cache
 def tables() -> tuple[str, ...]:
-    """Dotted names of all tables, sections before what lies in them."""
+    """Dotted names of the tables that all scenes have, sections before what lies in them."""
     tables = {}
     for key in fields():
         parts = key.split(".")
@@ -177,19 +208,22 @@ def tables() -> tuple[str, ...]:
     return tuple(sorted(tables, key=lambda table: table.count(".")))
 
 
-def _line_of(key: str, text: str) -> int | None:
-    """Line (from 1) of `text` that sets `key`, else that opens its table; None when neither is plain to see."""
-    key, table, opened = _plain(key), "", None
+def _line_of(key: str, text: str, entry: int = 0) -> int | None:
+    """Line (from 1) of `text` that sets `key`, or begins that `entry` of its list, else that opens its table; None when none is plain to see."""
+    key, table, opened, begun = _plain(key), "", None, 0
     for number, line in enumerate(text.splitlines(), start=1):
         header = re.match(r"\s*\[\[?([^\[\]]+)\]", line)
-        entry = re.match(r"\s*([\w\-.\"' ]+?)\s*=", line)
+        assignment = re.match(r"\s*([\w\-.\"' ]+?)\s*=", line)
         if header:
             table = _plain(header[1])
-            if opened is None and (key == table or key.startswith(table + ".")):
+            begun += table == key
+            if entry and begun == entry:
+                return number
+            if opened is None and (f"{key}.".startswith(f"{table}.") or table.startswith(f"{key}.")):
                 opened = number
-        elif entry:
-            full = f"{table}.{_plain(entry[1])}".lstrip(".")
-            if key == full or key.startswith(full + ".") or full == f"{key}.{SWITCH_ENTRY}":
+        elif assignment:
+            full = f"{table}.{_plain(assignment[1])}".lstrip(".")
+            if key == full or key.startswith(full + ".") or full == f"{key}.{SWITCH}":
                 return number
     return opened
 

@@ -9,22 +9,24 @@ from pathlib import Path
 import tomlkit
 
 from ...output import files
-from .. import Scene, fields
-from ..schema import Field
-from .reading import GROUPS, SWITCH_ENTRY, PresetError, tables
+from .. import Scene, fields, instances
+from ..catalogue import KIND, SWITCH
+from ..schema import Field, Value
+from . import paths
+from .reading import GROUPS, PresetError, tables
 
 
-def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str = "", group: str = "") -> str:
-    """`scene` as a preset's TOML: what differs from the defaults, or with `full` everything, units as comments.
+def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str = "", group: str = "", folder: Path | None = None) -> str:
+    """`scene` as a preset's TOML: what differs from the defaults, or with `full` everything, units as comments; of instances always the kind.
 
-    Reading it gives back exactly `scene`.
+    Reading it gives back exactly `scene`; from a file in `folder`, too, which paths below it are made relative to.
     """
-    return _dump(scene, full, {"title": title, "description": description, "group": group})
+    return _dump(scene, full, {"title": title, "description": description, "group": group}, folder)
 
 
-def picture_text(scene: Scene, time: float) -> str:
-    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a saved picture carries."""
-    return _dump(scene, True, {"time": float(time), "version": _version()})
+def picture_text(scene: Scene, time: float, folder: Path | None = None) -> str:
+    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a picture saved in `folder` carries."""
+    return _dump(scene, True, {"time": float(time), "version": _version()}, folder)
 
 
 def save(scene: Scene, path: str | Path, *, title: str = "", description: str = "", group: str = "", full: bool = False) -> Path:
@@ -39,7 +41,7 @@ def save(scene: Scene, path: str | Path, *, title: str = "", description: str = 
     if group and group not in GROUPS:
         raise PresetError(f"got {group!r}; allowed is one of {', '.join(GROUPS)}", key="group", source=str(path))
     try:
-        text = dumps(scene, full, title=title, description=description, group=group)
+        text = dumps(scene, full, title=title, description=description, group=group, folder=path.absolute().parent)
         files.write_whole(path, text.encode("utf-8"))
     except OSError as error:
         raise PresetError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
@@ -55,7 +57,7 @@ def _version() -> str:
         return "unknown"
 
 
-def _dump(scene: Scene, full: bool, about: Mapping[str, str | float]) -> str:
+def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Path | None) -> str:
     document = tomlkit.document()
     for name, value in about.items():
         if value != "":
@@ -66,12 +68,24 @@ def _dump(scene: Scene, full: bool, about: Mapping[str, str | float]) -> str:
             if part not in place:
                 place.add(part, tomlkit.table())
             place = place[part]
-        for name, item in entries.items():
-            value = tomlkit.item(scene.get(item.key))
+        for name, item in sorted(entries.items(), key=lambda entry: bool(entry[1].columns)):  # in TOML, what stands below [[path]] belongs to it
+            value = scene.get(item.key)
+            written = _written(item, value if folder is None else paths.relative(item, value, folder))
             if full and item.unit:
-                value.comment(item.unit)
-            place.add(name, value)
+                written.comment(item.unit)
+            place.add(name, written)
     return tomlkit.dumps(document)
+
+
+def _written(item: Field, value: Value) -> tomlkit.items.Item:
+    if item.kind != "list":
+        return tomlkit.item(value)
+    if not item.columns or not value:
+        return tomlkit.item(list(value))
+    records = tomlkit.aot()
+    for record in value:
+        records.append(tomlkit.item(dict(record)))
+    return records
 
 
 def _entries_by_table(scene: Scene, full: bool) -> dict[str, dict[str, Field]]:
@@ -79,6 +93,11 @@ def _entries_by_table(scene: Scene, full: bool) -> dict[str, dict[str, Field]]:
     entries: dict[str, dict[str, Field]] = {table: {} for table in tables()}
     for key, item in fields().items():
         if full or scene.get(key) != item.default:
-            table, name = (key, SWITCH_ENTRY) if key in entries else key.rsplit(".", 1)
+            table, name = (key, SWITCH) if key in entries else key.rsplit(".", 1)
             entries[table][name] = item
+    for section in instances.SLOTS:
+        for instance, made in getattr(scene, section).items():
+            place = instances.Place(section, instance)
+            known = instances.fields_of(place, made.kind)
+            entries[place.path] = {name: item for name, item in known.items() if full or name == KIND or made.values[name] != item.default}
     return {table: items for table, items in entries.items() if items}

@@ -1,0 +1,51 @@
+"""A mapping that does not change: what a scene can hold, hash, compare and send to another process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TypeVar
+
+K = TypeVar("K")
+V = TypeVar("V")
+
+
+class FrozenMap(Mapping[K, V]):
+    """An immutable mapping in a fixed order, which counts when two of them are compared; its values have to be hashable."""
+
+    __slots__ = ("_hash", "_items", "_values")
+
+    def __init__(self, items: Mapping[K, V] | Iterable[tuple[K, V]] = ()):
+        self._values = dict(items)
+        self._items = tuple(self._values.items())
+        self._hash = hash(self._items)  # once: a scene is a key of several caches in every frame
+
+    def __getitem__(self, key: K) -> V:
+        return self._values[key]
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, FrozenMap):
+            return self._hash == other._hash and self._items == other._items
+        return self._values == other
+
+    def __reduce__(self):
+        return FrozenMap, (self._items,)
+
+    def __repr__(self) -> str:
+        return f"FrozenMap({self._values!r})"
+
+    def updated(self, changes: Mapping[K, V]) -> FrozenMap[K, V]:
+        """This mapping with `changes` put in; what is new comes last."""
+        return FrozenMap({**self._values, **changes})
+
+    def without(self, key: K) -> FrozenMap[K, V]:
+        """This mapping without `key`."""
+        return FrozenMap(item for item in self._items if item[0] != key)

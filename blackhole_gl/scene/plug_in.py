@@ -1,0 +1,157 @@
+"""One plug-in: a GLSL file with a header, as its header describes it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Generic, TypeVar
+
+from . import headers, parameters
+from .headers import CatalogueError
+from .schema import Field
+from .tables import Number, Table
+from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits, Traits
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A place that plug-ins fit.
+
+    Attributes:
+        folder: under ``shaders/``.
+        section: of the scene, which their parameters belong to.
+        traits: the class of what their headers say beside parameters.
+        of_kinds: whether a plug-in is a kind of which a scene holds named instances, each with the parameters as its own.
+    """
+
+    folder: str
+    section: str
+    traits: type[Traits] = NoTraits
+    of_kinds: bool = False
+
+
+SLOTS: Mapping[str, Slot] = MappingProxyType(
+    {
+        "ray_model": Slot("ray_models", "rays", RayModelTraits),
+        "integrator": Slot("integrators", "rays", IntegratorTraits),
+        "step_control": Slot("step_controls", "rays", StepControlTraits),
+        "disk_layer": Slot("disks", "disk", DiskLayerTraits),
+        "sky": Slot("skies", "sky"),
+        "thing": Slot("things", "things", ThingTraits, of_kinds=True),
+        "medium": Slot("media", "media", MediumTraits, of_kinds=True),
+    }
+)
+
+KIND = "kind"
+"""The entry of an instance that names its kind, which no parameter of a kind may be called."""
+
+SWITCH = "enabled"
+"""What stands for a layer's own switch among its parameters in a file, which none of them may be called."""
+
+_RESERVED = {"disk_layer": SWITCH, "thing": KIND, "medium": KIND}
+_DECLARED = ("parameters", "tables", "numbers")
+
+T = TypeVar("T", bound=Traits)
+
+
+@dataclass(frozen=True)
+class _About:
+    """The entries that every header has."""
+
+    label: str
+    summary: str
+    source: str
+    slot: str
+    rank: float = 100.0
+
+
+@dataclass(frozen=True)
+class PlugIn(Generic[T]):
+    """One GLSL plug-in.
+
+    Attributes:
+        key: the file's stem, as scenes name it.
+        slot: the place it fits, a key of `SLOTS`.
+        path: path below ``shaders/``, with forward slashes.
+        file: the file itself.
+        label, summary, source: what people read.
+        rank: its place in lists, smallest first.
+        traits: what else its header says, a record of its slot.
+        parameters: its scene fields, by dotted key; those of a kind by name, as each instance has them.
+        tables: the textures it looks things up in.
+        numbers: what it has worked out for every frame.
+    """
+
+    key: str
+    slot: str
+    path: str
+    file: Path
+    label: str
+    summary: str
+    source: str
+    rank: float
+    traits: T
+    parameters: Mapping[str, Field]
+    tables: tuple[Table, ...]
+    numbers: tuple[Number, ...]
+
+
+def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
+    """The plug-in in `file`, below the shader folder `root`.
+
+    Args:
+        place: what errors call the file.
+
+    Raises:
+        CatalogueError: it cannot be read, has no header, or an entry is missing, unknown or of the wrong kind.
+    """
+    try:
+        header = headers.read_header(file.read_text(encoding="utf-8"), place)
+    except (OSError, UnicodeDecodeError) as error:
+        raise CatalogueError(f"{place}: cannot be read: {error}") from None
+    if not headers.is_name(file.stem) or file.stem == "auto":
+        raise CatalogueError(f"{place}: the file's name is the plug-in's key; allowed are {headers.NAMES}, other than auto")
+    kind = SLOTS[slot].traits
+    of_all, of_slot = headers.entry_names(_About), headers.entry_names(kind)
+    headers.refuse_unknown(header, (*of_all, *of_slot, *_DECLARED), place)
+    about = headers.record(_About, {name: entry for name, entry in header.items() if name in of_all}, place)
+    if about.slot != slot:
+        raise CatalogueError(f"{place}: slot is {about.slot!r}, but its folder holds {slot!r}")
+    traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, place)
+    declared = {part: _declared(header, part, place) for part in _DECLARED}
+    path = file.relative_to(root).as_posix()
+    return PlugIn(
+        file.stem,
+        slot,
+        path,
+        file,
+        about.label,
+        about.summary,
+        about.source,
+        about.rank,
+        traits,
+        _parameters(declared["parameters"], slot, file.stem, place),
+        tuple(headers.record(Table, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["tables"].items()),
+        tuple(headers.record(Number, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["numbers"].items()),
+    )
+
+
+def _declared(header: Mapping[str, Any], part: str, place: str) -> Mapping[str, Mapping[str, Any]]:
+    """The tables below ``[parameters]``, ``[tables]`` or ``[numbers]``, by name."""
+    entries = headers.table(header.get(part, {}), f"{place}: {part}")
+    for name in entries:
+        if not headers.is_name(name):
+            raise CatalogueError(f"{place}: {part}: got {name!r}; allowed are {headers.NAMES}")
+    return {name: headers.table(entry, f"{place}: {part}.{name}") for name, entry in entries.items()}
+
+
+def _parameters(declared: Mapping[str, Mapping[str, Any]], slot: str, key: str, place: str) -> Mapping[str, Field]:
+    prefix = "" if SLOTS[slot].of_kinds else f"{SLOTS[slot].section}.{key}."
+    found = {}
+    for name, entry in declared.items():
+        if name == _RESERVED.get(slot):
+            raise CatalogueError(f"{place}: parameters.{name}: {name!r} has another meaning here; the parameter needs another name")
+        found[prefix + name] = parameters.field_of(prefix + name, entry, f"{place}: parameters.{name}")
+    return MappingProxyType(found)

@@ -1,0 +1,35 @@
+"""Paths in scenes and in files: a preset's relative paths start at its own folder, so that it can be moved together with what it names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ..frozen import FrozenMap
+from ..schema import Field, Value
+
+
+def anchored(item: Field, value: Value, folder: Path) -> Value:
+    """`value` of `item` with paths that were relative to `folder`, as a file there has them."""
+    return _mapped(item, value, lambda path: str(folder / Path(path).expanduser()))
+
+
+def relative(item: Field, value: Value, folder: Path) -> Value:
+    """`value` of `item` as a file in `folder` is to have it: relative where the path leads below the folder."""
+
+    def as_written(path: str) -> str:
+        whole = Path(path).absolute()
+        return whole.relative_to(folder).as_posix() if whole.is_relative_to(folder) else str(whole)
+
+    return _mapped(item, value, as_written)
+
+
+def _mapped(item: Field, value: Value, change: Callable[[str], str]) -> Value:
+    """`value` with `change` made to every path in it; an empty one stays."""
+    if item.kind == "file":
+        return change(value) if value else value
+    if item.kind != "list":
+        return value
+    if item.element is not None:
+        return tuple(_mapped(item.element, entry, change) for entry in value)
+    return tuple(FrozenMap((column.key, _mapped(column, entry[column.key], change)) for column in item.columns) for entry in value)

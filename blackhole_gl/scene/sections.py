@@ -1,0 +1,169 @@
+"""The fixed sections of a scene, as frozen records whose fields carry their range, unit and meaning.
+
+Lengths are in Schwarzschild radii (r_s = 2GM/c² = 1), times in r_s/c, angles in degrees where the key ends in ``_deg``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from dataclasses import fields as record_fields
+from types import MappingProxyType
+
+
+def number(default: float | int, low: float, high: float, unit: str = "", help: str = "", *, physical: float | None = None, allow_infinity: bool = False):
+    """A record field that holds a number in the closed range low…high."""
+    kind = "int" if isinstance(default, int) else "float"
+    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity)
+    return field(default=default, metadata=facts)
+
+
+def switch(default: bool, help: str = "", *, physical: bool | None = None):
+    """A record field that is on or off."""
+    return field(default=default, metadata=dict(kind="switch", help=help, physical=physical))
+
+
+def choice(default: str, options: tuple[str, ...] | str, help: str = "", *, physical: str | None = None):
+    """A record field that names one of `options`; a string names the catalogue slot whose plug-ins are the options.
+
+    With the default ``auto``, that word is an option too: the plan chooses.
+    """
+    return field(default=default, metadata=dict(kind="choice", options=options, help=help, physical=physical))
+
+
+@dataclass(frozen=True)
+class Hole:
+    """The black hole."""
+
+    spin: float = number(0.0, -0.9999, 0.9999, "a*", "Angular momentum J c/(G M²). Negative turns clockwise seen from +z.")
+    gravity_strength: float = number(1.0, 0.1, 10.0, "×", "Multiplies the bending of light in the marched models; 1 is physics, all else is art.", physical=1.0)
+    horizon_size: float = number(
+        1.0, 0.01, 1.0, "r_s", "Radius at which the marched models take a ray as captured; 1 is the Schwarzschild horizon.", physical=1.0,
+    )
+
+
+@dataclass(frozen=True)
+class Camera:
+    """The observer and its picture."""
+
+    distance: float = number(
+        20.0, 0.5001, 1e4, "r_s",
+        "Boyer–Lindquist (areal) radius of the camera, above the horizon: 1 without spin, down to 0.5 with. inf is a far observer with "
+        "parallel rays.",
+        allow_infinity=True,
+    )
+    inclination_deg: float = number(80.0, 0.0, 180.0, "°", "Angle from the spin axis: 0 above the north pole, 90 in the disk's plane.")
+    azimuth_deg: float = number(0.0, -360.0, 360.0, "°", "Azimuth of the camera about the spin axis, counter-clockwise seen from +z.")
+    yaw_deg: float = number(0.0, -180.0, 180.0, "°", "Turns the view to the right, away from the hole.")
+    pitch_deg: float = number(0.0, -90.0, 90.0, "°", "Turns the view up, away from the hole.")
+    roll_deg: float = number(0.0, -180.0, 180.0, "°", "Turns the camera clockwise about its line of sight.")
+    fov_deg: float = number(45.0, 1.0, 150.0, "°", "Vertical angle of view.")
+    field_m: float = number(30.0, 0.1, 1e4, "M", "Height of the picture when the camera is infinitely far.")
+    observer: str = choice(
+        "static", ("static", "zamo"),
+        "How the camera moves: at rest, or with zero angular momentum (ZAMO), dragged round by a spinning hole. In the ergosphere nothing "
+        "can rest: there the static observer gives way to the ZAMO.",
+    )
+
+
+@dataclass(frozen=True)
+class Rays:
+    """How light is traced."""
+
+    model: str = choice(
+        "auto", "ray_model",
+        "The space-time and the form of its light rays; auto: the cheapest that the tolerance allows, by the chart's measurements.",
+    )
+    integrator: str = choice("auto", "integrator", "One step of a marched model; auto as above.")
+    step_control: str = choice("auto", "step_control", "How long the next step is; auto: what suits the model.")
+    tolerance: float = number(0.5, 0.001, 100.0, "px", "Error allowed at 99 % of the pixels of a picture 1080 high, for what is chosen automatically.")
+    step_length: float = number(0.0, 0.0, 2.0, "r_s", "Length Δt₀ of a Cartesian step (at r = 3 r_s where the step follows the radius); 0: from the tolerance.")
+    step_angle: float = number(
+        0.0, 0.0, 0.8, "rad",
+        "Angular step κ of models that march in angles; halving it divides the error by about 16; 0: from the tolerance.",
+    )
+    max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
+    orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
+    refine: bool = switch(
+        True,
+        "While the camera moves, trace a coarse grid of exact rays and interpolate between them where the tolerance allows; at rest every "
+        "pixel gets its own.",
+    )
+    lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
+
+
+@dataclass(frozen=True)
+class Disk:
+    """The thin accretion disk in the plane z = 0."""
+
+    enabled: bool = switch(True, "Show the disk.")
+    inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
+    outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge.")
+    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Thickness of the look layers' pattern; the disk itself is thin.")
+    orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
+    temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
+    temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
+    frequency_shift: str = choice("exact", ("exact", "s0", "s1"), "The g-factor: exact, or the formula of an older viewer.", physical="exact")
+    beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
+    doppler_colour: bool = switch(True, "Shift the colour by the motion of the matter.", physical=True)
+    beaming: bool = switch(True, "Brighten what approaches, dim what recedes.", physical=True)
+    redshift: bool = switch(True, "Redden and dim what climbs out of the well.", physical=True)
+    compositing: str = choice("opacity", ("additive", "opacity"), "Whether crossings add up or nearer ones hide farther ones.")
+    opacity: float = number(0.85, 0.0, 1.0, "", "How much of what lies behind a crossing is hidden, where the disk is dense.")
+    emission_strength: float = number(0.18, 0.0, 2.0, "", "Brightness of the disk.")
+    density_gain: float = number(9200.0, 0.0, 40000.0, "", "Contrast of the look layers.")
+    noise_scale: float = number(0.68, 0.01, 5.0, "1/r_s", "Frequency of the coarsest pattern of the look layers.")
+    noise_speed: float = number(0.7, 0.0, 5.0, "×", "How fast the look layers' pattern orbits; 1 is the Keplerian rate.")
+
+
+@dataclass(frozen=True)
+class Sky:
+    """What lies behind everything."""
+
+    enabled: bool = switch(True, "Show stars and galaxy.")
+    model: str = choice("procedural", "sky", "Where the sky's radiance comes from.")
+    brightness: float = number(1.0, 0.0, 10.0, "×", "Brightness of the whole sky.")
+
+
+@dataclass(frozen=True)
+class Post:
+    """From scene radiance to the picture on the screen."""
+
+    view: str = choice(
+        "picture", ("picture", "steps", "order", "g_factor", "difference", "conservation", "unresolved"),
+        "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, displacement from the most accurate method, "
+        "drift of conserved quantities, unresolved rays.",
+    )
+    exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light.")
+    bloom: bool = switch(True, "Glow around bright places, as in a lens.")
+    bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")
+    bloom_intensity: float = number(0.45, 0.0, 2.0, "", "Strength of the glow.")
+    bloom_spread: float = number(1.0, 0.1, 3.0, "×", "Width of the glow.")
+    tone_map: str = choice("aces", ("linear", "reinhard", "aces", "agx"), "How scene radiance becomes screen brightness.")
+    gamma: float = number(1.0, 0.2, 3.0, "", "Creative gamma on top of the screen's own.")
+    dither: bool = switch(True, "Noise of less than one grey level against banding in the dark sky.")
+
+
+@dataclass(frozen=True)
+class Playback:
+    """How scene time runs in the window."""
+
+    rate: float = number(4.0, 0.0, 100.0, "(r_s/c)/s", "Scene time that passes in one second.")
+    target_fps: float = number(
+        30.0, 0.0, 120.0, "fps",
+        "Frame rate that a moving camera holds by drawing fewer pixels; a resting one before a turning disk keeps about half of it. At rest "
+        "every pixel is drawn. 0: off, always full resolution.",
+    )
+
+
+SECTIONS: Mapping[str, type] = MappingProxyType(
+    {"hole": Hole, "camera": Camera, "rays": Rays, "disk": Disk, "sky": Sky, "post": Post, "playback": Playback}
+)
+"""The sections by name, in the order of panels and files."""
+
+
+def declared() -> dict[str, Mapping[str, object]]:
+    """What each field says of itself, by dotted key: the arguments of `schema.Field`, but that a choice's ``options`` may name a catalogue slot."""
+    return {
+        f"{section}.{item.name}": {**item.metadata, "default": item.default} for section, kind in SECTIONS.items() for item in record_fields(kind)
+    }

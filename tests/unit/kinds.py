@@ -1,0 +1,102 @@
+"""Kinds of things and media in a shader folder of the user's, for tests: none is shipped that has every kind of value."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+SPHERE = '''/*---
+label = "Sphere"
+summary = "A ball."
+source = "own"
+slot = "thing"
+
+[parameters.radius]
+default = 1.0
+range = [0.1, 50.0]
+unit = "r_s"
+help = "Its radius."
+
+[parameters.count]
+default = 3
+range = [1, 9]
+help = "How many."
+
+[parameters.glows]
+default = false
+help = "Whether it gives light."
+
+[parameters.pattern]
+default = "plain"
+options = ["plain", "chequered"]
+help = "What is painted on it."
+
+[parameters.caption]
+default = ""
+length = 20
+help = "What stands beside it."
+
+[parameters.image]
+default = ""
+suffixes = [".png", ".jpg"]
+help = "What is painted on it."
+
+[parameters.radii]
+default = [1.0, 2.0]
+length = [0, 4]
+element = { default = 1.0, range = [0.0, 9.0], unit = "r_s" }
+help = "Rings."
+
+[parameters.path]
+default = []
+length = [0, 10]
+help = "Where it goes."
+columns.time = { default = 0.0, range = [0.0, 1e6], unit = "r_s/c", help = "When." }
+columns.ease = { default = "smooth", options = ["smooth", "linear"], help = "How." }
+columns.image = { default = "", suffixes = [".png"], help = "What is shown from then on." }
+---*/
+'''
+
+CUBE = '''/*---
+label = "Cube"
+summary = "A box."
+source = "own"
+slot = "thing"
+opaque = false
+
+[parameters.edge]
+default = 2.0
+range = [0.1, 50.0]
+help = "Its edge."
+
+[parameters.radius]
+default = 0.5
+range = [0.0, 1.0]
+help = "Of its corners."
+
+[parameters.glows]
+default = false
+help = "Whether it gives light."
+---*/
+'''
+
+CLOUD = '''/*---
+label = "Cloud"
+summary = "A haze."
+source = "own"
+slot = "medium"
+
+[parameters.density]
+default = 1.0
+range = [0.0, 10.0]
+help = "How much there is."
+---*/
+'''
+
+
+def put(folder: Path) -> Path:
+    """Writes the kinds below the configuration folder `folder`; returns its shader folder."""
+    for path, text in (("things/sphere.glsl", SPHERE), ("things/cube.glsl", CUBE), ("media/cloud.glsl", CLOUD)):
+        file = folder / "shaders" / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+    return folder / "shaders"
