@@ -3,7 +3,7 @@
     x'' = -G (M/r^3) x (1 + 3 h^2/r^2) - G (6 M/r^3) v cross J,    h = |x cross v| at the camera,  |v| = 1 there,  J = (0, 0, a M)
 
 with a = a*/2. The orbit is not planar with J, so the unknowns are n = x/r, w = 1/r, l = x cross v, v_n = n.v, and the parameter
-d sigma = dt/r^2: as in `kerr`, infinity is w = 0.
+d sigma = dt/r^2: as in the Kerr-Schild form, infinity is w = 0.
 
     n' = l cross n,  w' = -v_n,  l' = k n cross (z cross v),  v_n' = w l^2 - G M (1 + 3 h^2 w^2) + k w n.(z cross v),  k = 6 G M a M
 """
@@ -16,7 +16,7 @@ from .observers import Place
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state; the first four are those of the Kerr-Schild form.
 N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, V_N, H2 = range(9)
 
 
@@ -29,8 +29,8 @@ class PostNewtonianSystem:
         self.drag = 6.0 * gravity_strength * 0.5 * (0.5 * spin) * 0.5
 
     def rhs(self, state: Array) -> Array:
-        n, w, l, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
-        across = np.cross(l, n, axis=0)
+        n, w, momentum, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
+        across = np.cross(momentum, n, axis=0)
         v = v_n * n + w * across
         turned = np.stack([-v[1], v[0], np.zeros_like(w)])
         change = np.zeros_like(state)
@@ -82,10 +82,10 @@ class PostNewtonianSystem:
         return self._state(e_r, 0.0, np.cross(e_r, offset).T, -np.ones(len(screen)))
 
     @staticmethod
-    def _state(n: Array, w: float, l: Array, v_n: Array) -> Array:
+    def _state(n: Array, w: float, momentum: Array, v_n: Array) -> Array:
         state = np.empty((9, v_n.size))
-        state[N_X:W], state[W], state[L_X:V_N], state[V_N] = n[:, None], w, l, v_n
-        state[H2] = (l * l).sum(axis=0)
+        state[N_X:W], state[W], state[L_X:V_N], state[V_N] = n[:, None], w, momentum, v_n
+        state[H2] = (momentum * momentum).sum(axis=0)
         return state
 
     @staticmethod

@@ -8,14 +8,14 @@ import numpy as np
 
 from ..physics import relativity
 from . import flat, lenses
+from .binet_form import N_Z, BinetSystem, W
 from .hits import CAPTURED, ESCAPED, UNRESOLVED, ReferenceHits, angles, wrapped
 from .integrator import EVALUATIONS_PER_STEP, locate_zero, march
-from .kerr import KerrSystem
-from .mino import ENERGY, MinoSystem
-from .mino import L as L_MINO
+from .kerr_schild_form import KerrSchildSystem
+from .mino_form import ENERGY, MinoSystem
+from .mino_form import L as L_MINO
 from .observers import Place, momenta, static_observer_exists
 from .post_newtonian import PostNewtonianSystem
-from .schwarzschild import N_Z, SchwarzschildSystem, W
 
 MODELS = ("flat", "screen_lens", "weak_field", "post_newtonian", "post_newtonian_drag", "schwarzschild", "schwarzschild_binet", "kerr_like",
           "kerr", "kerr_schild")
@@ -74,7 +74,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         used = "zamo"
     parts = [rays[i:i + _BATCH] for i in range(0, len(rays), _BATCH)] or [rays]
     if model in _KERR:
-        form = MinoSystem(-spin) if model == "kerr_schild" else KerrSystem(-spin)
+        form = MinoSystem(-spin) if model == "kerr_schild" else KerrSchildSystem(-spin)
         traced = [_trace_kerr(part, place_m, form, used, orders, tolerance) for part in parts]
     elif model == "weak_field":
         traced = [_trace_weak_field(part, place, second_order, orders) for part in parts]
@@ -86,7 +86,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     elif model == "flat":
         traced = [_trace_flat(part, place, horizon_size * horizon, orders) for part in parts]
     else:
-        system = SchwarzschildSystem(gravity_strength, horizon_size, drag * spin if model == "kerr_like" else 0.0)
+        system = BinetSystem(gravity_strength, horizon_size, drag * spin if model == "kerr_like" else 0.0)
         traced = [_trace_schwarzschild(part, place, system, orders, tolerance) for part in parts]
     fate, direction, steps, r, phi, energy, l_z = (np.concatenate(pieces) for pieces in zip(*traced, strict=True))
 
@@ -103,8 +103,8 @@ def _emitter_ratio(r: Array, energy: Array, l_z: Array, spin: float, orbit: str)
     outside = r >= relativity.isco_radius(spin, orbit)
     safe = np.where(outside, r, 100.0)
     rate = 0.5 * relativity.orbital_frequency(safe, spin, orbit)
-    e, l = energy[:, None], l_z[:, None]
-    return np.where(outside, e / (relativity.orbital_u_t(safe, spin, orbit) * (e - rate * l)), np.nan)
+    energy, l_z = energy[:, None], l_z[:, None]
+    return np.where(outside, energy / (relativity.orbital_u_t(safe, spin, orbit) * (energy - rate * l_z)), np.nan)
 
 
 def _trace_kerr(rays, place, system, observer, orders, tolerance):

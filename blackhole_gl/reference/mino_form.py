@@ -10,8 +10,8 @@ Turning points are no trouble once the first two are differentiated. With w = 1/
 The first term of phi' has a pole on the axis; sin(theta) e^{i phi} of that term alone obeys zeta'' = -(Q + L^2 + 2 a^2 E^2 mu^2) zeta,
 which has none. The second is a quadrature, the twist.
 
-As in `kerr`, a ray traced backwards is a photon of Kerr with -a along the look direction. Other than there, the horizon is out of reach:
-rays stop above it, where light that goes in cannot turn any more.
+As in the Kerr-Schild form, a ray traced backwards is a photon of Kerr with -a along the look direction. Other than there, the horizon
+is out of reach: rays stop above it, where light that goes in cannot turn any more.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .observers import Momenta, Place
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state; the first four are those of the Kerr-Schild form.
 N_X, N_Y, N_Z, W, W_DOT, NX_DOT, NY_DOT, NZ_DOT, TWIST, ENERGY, L, Q = range(12)
 
 

@@ -1,4 +1,4 @@
-"""Null geodesics of Kerr by Hamilton's equations in Cartesian Kerr-Schild coordinates (float64, M = 1).
+"""Null geodesics of Kerr by Hamilton's equations in Cartesian Kerr-Schild coordinates (float64, M = 1): the twin of the ray model `kerr`.
 
 With ingoing coordinates the inverse metric is flat space minus f l l, so that
 
@@ -34,7 +34,7 @@ Array = np.ndarray
 N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY, CHART = range(10)
 
 
-class KerrSystem:
+class KerrSchildSystem:
     """Right-hand side for photons of Kerr with spin parameter `spin` (the reversed one, see above)."""
 
     def __init__(self, spin: float):

@@ -1,4 +1,4 @@
-"""Twins of the ray models `schwarzschild` (gravity strength G) and `kerr_like` (float64, r_s = 1).
+"""Schwarzschild's light as a plane that turns and Binet's equation in it (float64, r_s = 1): twins of `schwarzschild` and `kerr_like`.
 
 The model is x'' = -(3/2) G h^2 x/r^5 with h = |x cross v|. It is planar, so with d sigma = d t/r^2 (t: the model's
 own parameter, normalised to E = 1) the plane turns uniformly and what is left is Binet's equation,
@@ -27,11 +27,11 @@ from .observers import Place
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state; the first four are those of the Kerr-Schild form.
 N_X, N_Y, N_Z, W, W_DOT, E_X, E_Y, E_Z, H, TAU = range(10)
 
 
-class SchwarzschildSystem:
+class BinetSystem:
     """gravity_strength: G; horizon_size: radius of capture in r_s; twist: k a*, 0 for plain Schwarzschild."""
 
     def __init__(self, gravity_strength: float, horizon_size: float, twist: float = 0.0):
