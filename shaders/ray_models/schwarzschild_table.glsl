@@ -8,7 +8,6 @@ kind = "closed"
 space_time = "schwarzschild"
 spins = false
 exact = true
-twin = "schwarzschild"
 ---*/
 #include "common/orbit_from_centre.glsl"
 
