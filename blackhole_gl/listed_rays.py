@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,13 +23,6 @@ ANGLES = ("psi", "chi")
 SCREEN = ("alpha", "beta")
 _CROSSINGS = 3
 
-# Ray model → what its twin calls its parameters → their keys.
-_TWIN_PARAMETERS = {
-    "kerr_like": {"drag": "rays.kerr_like.drag"},
-    "weak_field": {"second_order": "rays.weak_field.second_order"},
-    "screen_lens": {"lens_radius": "rays.screen_lens.radius", "lens_shadow": "rays.screen_lens.shadow"},
-}
-
 
 class RayListError(ValueError):
     """A ray list that cannot be used; the text names file, line and column."""
@@ -45,6 +38,10 @@ class TracedRays:
         steps, evaluations: int (N,).
         crossing_r, crossing_phi, crossing_g: (N, 3); r in r_s, φ in radians (any branch), g = E_infinity/E_emitter of a circular
             emitter; NaN where there is none, and g also inside the ISCO.
+        lambda_: (N,) L_z/E in M of the photon that arrives; NaN where the shader keeps no crossings, and with them no λ.
+        crossing_theta: (N, 3) polar angle in radians.
+        crossing_k_r, crossing_k_theta: (N, 3) the covariant momentum of the photon that arrives, in Boyer–Lindquist coordinates and units
+            of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric.
     """
 
     fate: np.ndarray
@@ -54,6 +51,10 @@ class TracedRays:
     crossing_r: np.ndarray
     crossing_phi: np.ndarray
     crossing_g: np.ndarray
+    lambda_: np.ndarray
+    crossing_theta: np.ndarray
+    crossing_k_r: np.ndarray
+    crossing_k_theta: np.ndarray
 
 
 def columns(scene: Scene) -> tuple[str, str]:
@@ -73,7 +74,8 @@ def read(path: Path, scene: Scene) -> np.ndarray:
         reader = csv.DictReader(file, skipinitialspace=True)
         names = [name.strip() for name in reader.fieldnames or ()]
         if missing := [name for name in wanted if name not in names]:
-            raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {','.join(names) or 'nothing'}")
+            found = ",".join(names) or "nothing"
+            raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {found}")
         reader.fieldnames = names
         rows = [[_number(row[name], path, reader.line_num, name) for name in wanted] for row in reader]
     return np.array(rows, float).reshape(-1, 2)
@@ -97,12 +99,13 @@ def local_vectors(rays: np.ndarray, scene: Scene) -> np.ndarray:
 def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> TracedRays:
     """`rays` (N, 2) through the shader that pictures use."""
     if len(rays) == 0:
-        return _nothing()
+        return unknown(0)
     hits, shifts, ray_plan = renderer.trace_listed(scene, local_vectors(rays, scene))
     r = np.hypot(hits.crossing[..., 0].astype(float), hits.crossing[..., 1])
     phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
     none = r == 0.0
     isco = ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
+    momentum = hits.momentum.astype(float)
     return TracedRays(
         hits.fate,
         np.where((hits.fate == 1)[:, None], hits.direction.astype(float), np.nan),
@@ -111,25 +114,31 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> Trace
         np.where(none, np.nan, r),
         np.where(none, np.nan, phi),
         np.where(none | (r < isco), np.nan, shifts.astype(float)),
+        np.where(scene.rays.orders > 0, hits.lambda_.astype(float), np.nan),
+        np.where(none, np.nan, 0.5 * np.pi),
+        momentum[..., 0],
+        momentum[..., 1],
     )
 
 
 def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
-    """`rays` (N, 2) by the float64 twin of the scene's ray model."""
+    """`rays` (N, 2) by the float64 twin of the scene's ray model.
+
+    Raises:
+        ValueError: the model has no twin.
+    """
     if len(rays) == 0:
-        return _nothing()
+        return unknown(0)
     camera, model = scene.camera, ray_model(scene)
     given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
-    parameters = {name: scene.get(key) for name, key in _TWIN_PARAMETERS.get(scene.rays.model, {}).items()}
+    parameters = {name: scene.get(key) for name, key in reference.twin_of(model.key).parameters.items()}
     found = reference.trace(
-        model.traits.twin or model.key,
+        model.key,
         spin=space_time(scene).spin,
         distance=camera.distance,
         inclination_deg=camera.inclination_deg,
         azimuth_deg=camera.azimuth_deg,
         observer=camera.observer,
-        gravity_strength=scene.hole.gravity_strength,
-        horizon_size=scene.hole.horizon_size,
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
         **given,
@@ -137,30 +146,41 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
     )
     kept = np.arange(_CROSSINGS) < scene.rays.orders
     direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
-    crossings = (np.where(kept, values, np.nan) for values in (found.crossing_r, found.crossing_phi, found.g))
-    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, *crossings)
+    met = found.equatorial
+    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (met.r, met.phi, found.g, met.theta, met.k_r, met.k_theta))
+    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta)
 
 
-def _nothing() -> TracedRays:
-    empty = np.zeros((0, _CROSSINGS))
-    none = np.zeros(0, int)
-    return TracedRays(none, empty, none, none, empty, empty, empty)
+def unknown(count: int) -> TracedRays:
+    """`count` rays of which nothing is known."""
+    nothing, none, number = np.full((count, _CROSSINGS), np.nan), np.zeros(count, int), np.full(count, np.nan)
+    return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing)
 
 
 def write(path: Path, rays: TracedRays, digits: int) -> None:
     """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty."""
     theta = np.arctan2(np.hypot(rays.direction[:, 0], rays.direction[:, 1]), rays.direction[:, 2])
     phi = np.arctan2(rays.direction[:, 1], rays.direction[:, 0])
-    header = ["fate", "theta", "phi", "steps", "evaluations"]
-    header += [f"{name}{n}" for n in range(_CROSSINGS) for name in ("r", "phi", "g")]
+    at_crossings = {"r": rays.crossing_r, "phi": rays.crossing_phi, "g": rays.crossing_g}
+    momenta = {"theta": rays.crossing_theta, "k_r": rays.crossing_k_r, "k_theta": rays.crossing_k_theta}
+    header = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(at_crossings), "lambda", *_numbered(momenta)]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(header)
     for i, fate in enumerate(rays.fate):
-        crossings = [values[i, n] for n in range(_CROSSINGS) for values in (rays.crossing_r, rays.crossing_phi, rays.crossing_g)]
         ends = _texts((theta[i], phi[i]), digits)
-        writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *_texts(crossings, digits)])
+        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i)), digits)
+        writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there])
     write_whole(path, text.getvalue().encode())
+
+
+def _numbered(columns: Mapping[str, np.ndarray]) -> list[str]:
+    return [f"{name}{n}" for n in range(_CROSSINGS) for name in columns]
+
+
+def _in_turn(columns: Mapping[str, np.ndarray], ray: int) -> list[float]:
+    """A ray's values in the order of `_numbered`."""
+    return [values[ray, n] for n in range(_CROSSINGS) for values in columns.values()]
 
 
 def _texts(values: Iterable[float], digits: int) -> list[str]:

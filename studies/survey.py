@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-
 from blackhole_gl import listed_rays
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure.methods import Method, exact_for, refined, sensible
@@ -50,10 +48,4 @@ def own_twin(chart_scene: ChartScene, method: Method) -> TracedRays | None:
     try:
         return listed_rays.trace_by_reference(scene, chart_scene.rays)
     except ValueError:  # a model without a twin
-        return _no_rays(len(chart_scene.rays))
-
-
-def _no_rays(count: int) -> TracedRays:
-    """`count` rays of which nothing is known."""
-    nothing, none = np.full((count, 3), np.nan), np.zeros(count, int)
-    return TracedRays(none, nothing, none, none, nothing, nothing, nothing)
+        return listed_rays.unknown(len(chart_scene.rays))

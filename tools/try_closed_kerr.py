@@ -11,11 +11,11 @@ Dragging: Gauss–Legendre in Mino time over each piece between crossings. Rays 
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from blackhole_gl.listed_rays import TracedRays, local_vectors
+from blackhole_gl.listed_rays import TracedRays, local_vectors, unknown
 from blackhole_gl.measure import errors, scenes
 from blackhole_gl.physics import observer
 from blackhole_gl.physics.relativity import horizon_radius
@@ -269,7 +269,7 @@ def trace(ray: Rays, nodes: int) -> TracedRays:
     direction = np.stack([np.asarray(x) for x in polar.place(end, twist)], axis=1).astype(float)
     direction = np.where(escapes[:, None], direction, np.nan)
     zero = np.zeros(len(y), int)
-    return TracedRays(np.where(escapes, 1, 2), direction, zero, zero, r, phi, np.full_like(r, np.nan))
+    return replace(unknown(len(y)), fate=np.where(escapes, 1, 2), direction=direction, steps=zero, evaluations=zero, crossing_r=r, crossing_phi=phi)
 
 
 def main() -> None:

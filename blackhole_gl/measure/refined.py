@@ -10,7 +10,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from .. import plan
-from ..listed_rays import TracedRays
+from ..listed_rays import TracedRays, unknown
 from ..physics import relativity
 from ..plan import REFINE_STEP, Plan
 from ..plan.choice import REFINED_SIZE
@@ -51,7 +51,8 @@ def trace(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> TracedRa
     fate = hits.fate[y, x]
     direction = np.where((fate == 1)[:, None], hits.direction[y, x].astype(float), np.nan)
     phi = np.where(np.isnan(r), np.nan, np.arctan2(crossing[..., 1], crossing[..., 0]))
-    return TracedRays(fate, direction, steps, steps * made.evaluations_per_step, r, phi, g)
+    evaluations = steps * made.evaluations_per_step
+    return replace(unknown(len(x)), fate=fate, direction=direction, steps=steps, evaluations=evaluations, crossing_r=r, crossing_phi=phi, crossing_g=g)
 
 
 def truth(chart_scene: ChartScene) -> TracedRays:

@@ -6,7 +6,7 @@ screen coordinates in M, spin a* in [-1, 1]. Inside the functions M = 1. Angles 
 "prograde" means co-rotating with the hole; where a* < 0 that is clockwise seen from +z, and a* = 0 counts as positive.
 
 Sources: Bardeen 1973 (*Black Holes*, Les Houches) [B73]; Bardeen, Press & Teukolsky 1972 (ApJ 178, 347) [BPT];
-Synge 1966 (MNRAS 131, 463); Darwin 1959 (Proc. R. Soc. A 249, 180);
+Carter 1968 (Phys. Rev. 174, 1559); Synge 1966 (MNRAS 131, 463); Darwin 1959 (Proc. R. Soc. A 249, 180);
 Carlson 1995 (Numer. Algorithms 10, 13); Keeton & Petters 2005 (PRD 72, 104006).
 """
 
@@ -187,6 +187,35 @@ def photon_constants(n_theta: ArrayLike, n_phi: ArrayLike, r: ArrayLike, theta: 
     energy = lapse * p_t + drag * sine * l_over_sin
     k = sigma * np.asarray(n_theta) ** 2 + (l_over_sin - a * energy * sine) ** 2
     return Photon(energy, l_over_sin, k)
+
+
+# --- momenta ---------------------------------------------------------------------------------------------------------
+
+def null_residual(r: ArrayLike, theta: ArrayLike, spin: ArrayLike, lam: ArrayLike, k_r: ArrayLike, k_theta: ArrayLike,
+                  mass: float = 1.0) -> Array:
+    """How far a momentum is from light's: Sigma g^{mu nu} k_mu k_nu relative to the largest of its terms; 0 for a photon, 1e-16 at best.
+
+    Covariant Boyer-Lindquist components in units of |E| with M = 1: k_t = -+1 and k_phi = +-`lam` with `lam` = L_z/E in M (the sign of E makes
+    no difference), `k_r` a number and `k_theta` in M; at `r` in r_s and the polar angle `theta`, off the axis and off the horizons. With
+    `mass` 0 and spin 0 the metric is flat. The four terms are the squares of Carter's frame,
+
+        Sigma g(k, k) = -[(r^2+a^2) E - a L]^2/Delta + [L/sin(theta) - a E sin(theta)]^2 + Delta k_r^2 + k_theta^2
+
+    (Carter 1968), so that nothing but the null condition itself cancels. NaN where a component is.
+    """
+    a, sine = np.asarray(spin, dtype=np.float64), np.sin(theta)
+    r, lam = 2.0 * np.asarray(r, dtype=np.float64), np.asarray(lam, dtype=np.float64)
+    root = np.sqrt((mass - a) * (mass + a))
+    delta = (r - mass - root) * (r - mass + root)
+    in_time = -np.square(r * r + a * a - a * lam) / delta
+    around, outward, down = np.square(lam / sine - a * sine), delta * np.square(k_r), np.square(k_theta)
+    largest = np.maximum(np.maximum(np.abs(in_time), around), np.maximum(np.abs(outward), down))
+    return np.abs(in_time + around + outward + down) / largest
+
+
+def carter_constant(theta: ArrayLike, spin: ArrayLike, lam: ArrayLike, k_theta: ArrayLike) -> Array:
+    """Q/E^2 = k_theta^2 + cos^2(theta) (lam^2/sin^2(theta) - a^2) in M^2 of a momentum as in `null_residual` (Carter 1968)."""
+    return np.square(k_theta) + np.square(np.cos(theta)) * (np.square(np.asarray(lam, dtype=np.float64) / np.sin(theta)) - np.square(spin))
 
 
 # --- shadows ---------------------------------------------------------------------------------------------------------

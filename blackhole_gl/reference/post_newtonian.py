@@ -3,7 +3,7 @@
     x'' = -G (M/r^3) x (1 + 3 h^2/r^2) - G (6 M/r^3) v cross J,    h = |x cross v| at the camera,  |v| = 1 there,  J = (0, 0, a M)
 
 with a = a*/2. The orbit is not planar with J, so the unknowns are n = x/r, w = 1/r, l = x cross v, v_n = n.v, and the parameter
-d sigma = dt/r^2: as in `kerr`, infinity is w = 0.
+d sigma = dt/r^2: as in the Kerr-Schild form, infinity is w = 0.
 
     n' = l cross n,  w' = -v_n,  l' = k n cross (z cross v),  v_n' = w l^2 - G M (1 + 3 h^2 w^2) + k w n.(z cross v),  k = 6 G M a M
 """
@@ -12,11 +12,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from .flat import l_z_of_straight_rays
+from .hits import Traced
+from .marching import follow
 from .observers import Place
+from .registry import View, twin
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state.
 N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, V_N, H2 = range(9)
 
 
@@ -29,8 +33,8 @@ class PostNewtonianSystem:
         self.drag = 6.0 * gravity_strength * 0.5 * (0.5 * spin) * 0.5
 
     def rhs(self, state: Array) -> Array:
-        n, w, l, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
-        across = np.cross(l, n, axis=0)
+        n, w, momentum, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
+        across = np.cross(momentum, n, axis=0)
         v = v_n * n + w * across
         turned = np.stack([-v[1], v[0], np.zeros_like(w)])
         change = np.zeros_like(state)
@@ -58,17 +62,13 @@ class PostNewtonianSystem:
     def captured(self, state: Array) -> Array:
         return state[W] * self.capture_radius > 1.0
 
-    def radius(self, state: Array) -> Array:
-        """r in r_s, (N,)."""
-        return 1.0 / state[W]
+    def place(self, state: Array) -> tuple[Array, Array]:
+        """(r_s/r (N,), unit vector (3, N))."""
+        return state[W], state[N_X:W]
 
-    def azimuth(self, state: Array) -> Array:
-        return np.arctan2(state[N_Y], state[N_X])
-
-    def direction(self, state: Array) -> Array:
-        """World direction at infinity (N, 3)."""
-        n = state[N_X:W].T
-        return n / np.linalg.norm(n, axis=1, keepdims=True)
+    def momentum(self, state: Array) -> tuple[Array, Array]:
+        """NaN: what moves here changes its speed as a slow mass does, and is light in no metric."""
+        return np.full((2, state.shape[1]), np.nan)
 
     def start(self, place: Place, directions: Array) -> Array:
         """State (9, N) for local directions (N, 3) in a flat frame at `place` (r in r_s): the observer's own frame is skipped."""
@@ -82,12 +82,24 @@ class PostNewtonianSystem:
         return self._state(e_r, 0.0, np.cross(e_r, offset).T, -np.ones(len(screen)))
 
     @staticmethod
-    def _state(n: Array, w: float, l: Array, v_n: Array) -> Array:
+    def _state(n: Array, w: float, momentum: Array, v_n: Array) -> Array:
         state = np.empty((9, v_n.size))
-        state[N_X:W], state[W], state[L_X:V_N], state[V_N] = n[:, None], w, l, v_n
-        state[H2] = (l * l).sum(axis=0)
+        state[N_X:W], state[W], state[L_X:V_N], state[V_N] = n[:, None], w, momentum, v_n
+        state[H2] = (momentum * momentum).sum(axis=0)
         return state
 
     @staticmethod
     def _l(state: Array) -> Array:
         return np.sqrt((state[L_X:V_N] ** 2).sum(axis=0))
+
+
+_STRENGTHS = {"gravity_strength": "hole.gravity_strength", "horizon_size": "hole.horizon_size"}
+
+
+@twin("post_newtonian_drag", metric=None, parameters=_STRENGTHS)
+@twin("post_newtonian", metric=None, spins=False, parameters=_STRENGTHS)
+def post_newtonian(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0) -> Traced:
+    """gravity_strength: G; horizon_size: radius of capture in horizon radii. The drag is that of the spin: none without."""
+    system = PostNewtonianSystem(gravity_strength, horizon_size * view.horizon, view.spin)
+    state = system.start_at_infinity(view.place, view.screen) if view.at_infinity else system.start(view.place, view.rays)
+    return follow(view, system, state, np.ones(len(view.rays)), l_z_of_straight_rays(view))

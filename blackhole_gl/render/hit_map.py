@@ -17,8 +17,8 @@ from ..plan import REFINE_STEP, Plan
 from . import hit_texels, instances, refinement
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
-from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .instances import InstanceTables
+from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .tables import RAY_UNIT, Tables
 
 # Slices that a refined map is sharpened in, one a frame.

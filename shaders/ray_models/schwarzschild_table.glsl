@@ -8,7 +8,6 @@ kind = "closed"
 space_time = "schwarzschild"
 spins = false
 exact = true
-twin = "schwarzschild"
 
 [tables.orbit_table]
 make = "blackhole_gl.physics.orbit_table:table"

@@ -43,7 +43,7 @@ def test_each_ray_has_its_own_step_and_end():
     def watch(rays, before, after, step):
         zero = before[0] * after[0] < 0
         if zero.any():
-            at, found = integrator.locate_zero(system, 0, before[:, zero], after[:, zero], step[zero])
+            at, found = integrator.locate_zero(system.rhs, lambda state: state[0], before[:, zero], after[:, zero], step[zero])
             assert np.all(np.abs(found[0]) < 1e-14)
             assert np.all((at >= 0) & (at <= step[zero]))
         end[rays] += step

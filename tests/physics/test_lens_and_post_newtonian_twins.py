@@ -62,10 +62,13 @@ def test_screen_lens_takes_nothing_for_the_disk():
 def pn_deflection(b: float) -> float:
     """The post-Newtonian law by quadrature: u'' + u = M/b² + 3M u², so (du/dφ)² = 1/b² − u² + 2M u/b² + 2M u³, with v = 1 far away."""
     turning = optimize.brentq(lambda u: 1.0 / b**2 - u * u + u / b**2 + u**3, 0.0, min(2.0 / 3.0, 1.5 / b))
-    # u = turning · sin²: takes the root out of the end point.
-    swept = integrate.quad(
-        lambda s: 2.0 * turning * math.sin(s) * math.cos(s) / math.sqrt(max(1.0 / b**2 + turning * math.sin(s) ** 2 / b**2 - (turning * math.sin(s) ** 2) ** 2 + (turning * math.sin(s) ** 2) ** 3, 1e-300)),
-        0.0, 0.5 * math.pi, epsabs=1e-11, limit=400)[0]
+
+    def slope(s: float) -> float:
+        """dφ/ds with u = turning · sin² s, which takes the root out of the end point."""
+        u = turning * math.sin(s) ** 2
+        return 2.0 * turning * math.sin(s) * math.cos(s) / math.sqrt(max(1.0 / b**2 + u / b**2 - u**2 + u**3, 1e-300))
+
+    swept = integrate.quad(slope, 0.0, 0.5 * math.pi, epsabs=1e-11, limit=400)[0]
     return 2.0 * swept - math.pi
 
 

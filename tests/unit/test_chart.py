@@ -104,7 +104,8 @@ def _rays(direction: list, fate: list[int], r: list[float], g: list[float]) -> T
     count = len(fate)
     crossing_r, crossing_g = np.full((2, count, 3), np.nan)
     crossing_r[:, 0], crossing_g[:, 0] = r, g
-    return TracedRays(np.array(fate), np.array(direction, float), np.ones(count, int), np.ones(count, int), crossing_r, np.full((count, 3), np.nan), crossing_g)
+    ends = {"fate": np.array(fate), "direction": np.array(direction, float), "steps": np.ones(count, int), "evaluations": np.ones(count, int)}
+    return replace(listed_rays.unknown(count), **ends, crossing_r=crossing_r, crossing_g=crossing_g)
 
 
 def test_errors_of_rays_made_up_by_hand() -> None:

@@ -1,4 +1,4 @@
-"""Null geodesics of Kerr by Hamilton's equations in Cartesian Kerr-Schild coordinates (float64, M = 1).
+"""Null geodesics of Kerr by Hamilton's equations in Cartesian Kerr-Schild coordinates (float64, M = 1): the twin of the ray model `kerr`.
 
 With ingoing coordinates the inverse metric is flat space minus f l l, so that
 
@@ -26,7 +26,10 @@ import math
 
 import numpy as np
 
-from .observers import Momenta, Place
+from .hits import Traced
+from .marching import follow
+from .observers import Momenta, Place, momenta
+from .registry import View, twin
 
 Array = np.ndarray
 
@@ -34,12 +37,13 @@ Array = np.ndarray
 N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY, CHART = range(10)
 
 
-class KerrSystem:
+class KerrSchildSystem:
     """Right-hand side for photons of Kerr with spin parameter `spin` (the reversed one, see above)."""
 
     def __init__(self, spin: float):
         self.spin = spin
         self.r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
+        self.capture_radius = 0.5 * self.r_plus  # in r_s, as all that is not of these equations' own
 
     def rhs(self, state: Array) -> Array:
         nx, ny, s, w, lx, ly, lz, pn, energy, chart = state
@@ -144,36 +148,59 @@ class KerrSystem:
         """Boyer-Lindquist r in M, (N,)."""
         return self._rho(state) / state[W]
 
-    def azimuth(self, state: Array) -> Array:
-        """Boyer-Lindquist phi, (N,): Kerr-Schild's less the twist of its coordinates, in closed form."""
-        r = self.radius(state)
-        chart = state[CHART]
-        return np.arctan2(state[N_Y], state[N_X]) + chart * (self.azimuth_lag(r) - np.arctan2(self.spin, r))
+    def place(self, state: Array) -> tuple[Array, Array]:
+        """(r_s/r (N,), unit vector (3, N) of Boyer-Lindquist theta and phi).
+
+        (n_x + i n_y) = (rho + i a w) sin(theta) e^{i phi~} and n_z = rho cos(theta) with rho = w r; phi - phi~ is the lag, in closed form.
+        """
+        w, chart, rho = state[W], state[CHART], self._rho(state)
+        size = np.sqrt(rho * rho + (self.spin * w) ** 2)
+        turn = chart * (self.azimuth_lag(rho / w) - np.arctan(self.spin * w / rho))
+        c, s = np.cos(turn) / size, np.sin(turn) / size
+        return 2.0 * w / rho, np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z] / rho])
+
+    def momentum(self, state: Array) -> tuple[Array, Array]:
+        """(k_r, k_theta), each (N,), in Boyer-Lindquist coordinates, of the photon that arrives; in units of |E|, M = 1.
+
+        Components of p = p_n n + w L cross n along dx/dr and dx/dtheta, n.dx/dtheta = a^2 w sin(theta) cos(theta). The azimuths and times of the
+        two coordinate systems differ by functions of r: Boyer-Lindquist's p_r is that less +-(2 r E - a L_z)/Delta, + on ingoing coordinates.
+        The photon that arrives has momentum -p.
+        """
+        n, w, chart, energy = state[N_X:W], state[W], state[CHART], state[ENERGY]
+        rho, aw = self._rho(state), chart * self.spin * w
+        size2 = rho * rho + aw * aw
+        cos = n[2] / rho
+        ring = np.hypot(n[0], n[1])
+        outward = np.stack([(rho * n[0] + aw * n[1]) / size2, (rho * n[1] - aw * n[0]) / size2, cos])
+        cotangent = cos * np.sqrt(size2) / ring
+        downward = np.stack([n[0] * cotangent, n[1] * cotangent, -rho * ring / np.sqrt(size2)])
+        across = np.cross(state[L_X:P_N], n, axis=0)
+        p_r = state[P_N] * (outward * n).sum(axis=0) + w * (outward * across).sum(axis=0)
+        p_theta = state[P_N] * self.spin**2 * w * cos * ring / np.sqrt(size2) + (downward * across).sum(axis=0)
+        r = rho / w
+        delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
+        p_r -= chart * (2.0 * r * energy - self.spin * state[L_Z]) / delta
+        return -p_r / np.abs(energy), -p_theta / np.abs(energy)
 
     def azimuth_lag(self, r: Array | float) -> Array | float:
         """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays."""
         gap = 2.0 * (self.r_plus - 1.0)
         return self.spin * np.log1p(gap / (r - self.r_plus)) / gap
 
-    def direction(self, state: Array) -> Array:
-        """World direction at infinity (N, 3): the two azimuths agree there."""
-        n = state[N_X:W].T
-        return n / np.linalg.norm(n, axis=1, keepdims=True)
-
-    def start(self, place: Place, momenta: Momenta) -> Array:
+    def start(self, place: Place, photons: Momenta) -> Array:
         """State (10, N) of photons at a finite place."""
         r, cos, sin = place.r, place.cos_theta, place.sin_theta
-        chart = np.where(momenta.radial > 0.0, -1.0, 1.0)
+        chart = np.where(photons.radial > 0.0, -1.0, 1.0)
         a = chart * self.spin
         sigma = r * r + (self.spin * cos) ** 2
         delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
-        root = np.abs(momenta.radial) * math.sqrt(sigma * delta)
+        root = np.abs(photons.radial) * math.sqrt(sigma * delta)
         # p_r of the chart, -+(P - root)/Delta +- E, with the difference formed as K/(P + root).
-        p_r = chart * (momenta.carter_k / (momenta.carter_p + root) - momenta.energy)
-        p_theta = momenta.p_theta - a * momenta.l_over_sin * cos / r
+        p_r = chart * (photons.carter_k / (photons.carter_p + root) - photons.energy)
+        p_theta = photons.p_theta - a * photons.l_over_sin * cos / r
         along_u = (r / sigma) * (r * sin * p_r + cos * p_theta)
         along_z = (cos * (r * r + a * a) * p_r - r * sin * p_theta) / sigma
-        along_e = (momenta.l_over_sin + a * along_u) / r
+        along_e = (photons.l_over_sin + a * along_u) / r
 
         lag = chart * self.azimuth_lag(r)
         c, s = np.cos(lag), np.sin(lag)
@@ -182,8 +209,8 @@ class KerrSystem:
         p = np.stack([along_u * cp - along_e * sp, along_u * sp + along_e * cp, along_z])
         distance = math.sqrt(r * r + (self.spin * sin) ** 2)
         momentum = np.cross(x.T, p.T).T
-        momentum[2] = sin * momenta.l_over_sin
-        return self._state(x / distance, 1.0 / distance, momentum, p, momenta.energy, chart)
+        momentum[2] = sin * photons.l_over_sin
+        return self._state(x / distance, 1.0 / distance, momentum, p, photons.energy, chart)
 
     def start_at_infinity(self, place: Place, screen: Array) -> Array:
         """State (10, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
@@ -210,3 +237,15 @@ class KerrSystem:
         a2 = (self.spin * state[W]) ** 2
         q = 1.0 - a2
         return np.sqrt(0.5 * (q + np.sqrt(q * q + 4.0 * a2 * state[N_Z] ** 2)))
+
+
+@twin("kerr", metric="kerr")
+@twin("schwarzschild_binet", metric="schwarzschild", spins=False)
+def kerr_schild_form(view: View) -> Traced:
+    """Light of Kerr by this form. Binet's equation has it for a twin too: other coordinates and no orbital plane."""
+    system, place = KerrSchildSystem(-view.spin), view.place_in_m
+    if view.at_infinity:
+        state = system.start_at_infinity(place, view.rays)
+    else:
+        state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
+    return follow(view, system, state, state[ENERGY].copy(), -state[L_Z])

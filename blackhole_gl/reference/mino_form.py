@@ -10,8 +10,8 @@ Turning points are no trouble once the first two are differentiated. With w = 1/
 The first term of phi' has a pole on the axis; sin(theta) e^{i phi} of that term alone obeys zeta'' = -(Q + L^2 + 2 a^2 E^2 mu^2) zeta,
 which has none. The second is a quadrature, the twist.
 
-As in `kerr`, a ray traced backwards is a photon of Kerr with -a along the look direction. Other than there, the horizon is out of reach:
-rays stop above it, where light that goes in cannot turn any more.
+As in the Kerr-Schild form, a ray traced backwards is a photon of Kerr with -a along the look direction. Other than there, the horizon
+is out of reach: rays stop above it, where light that goes in cannot turn any more.
 """
 
 from __future__ import annotations
@@ -21,11 +21,14 @@ import math
 import numpy as np
 
 from ..physics import relativity
-from .observers import Momenta, Place
+from .hits import Traced
+from .marching import follow
+from .observers import Momenta, Place, momenta
+from .registry import View, twin
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state.
 N_X, N_Y, N_Z, W, W_DOT, NX_DOT, NY_DOT, NZ_DOT, TWIST, ENERGY, L, Q = range(12)
 
 
@@ -38,6 +41,7 @@ class MinoSystem:
         # Inside the innermost photon orbit there is no turning point for light that goes in.
         photon_orbit = 2.0 * float(relativity.photon_orbit_radius(abs(spin)))
         self.stop = self.r_plus + min(0.01 * self.r_plus, 0.5 * (photon_orbit - self.r_plus))
+        self.capture_radius = 0.5 * self.stop  # in r_s, as all that is not of these equations' own
 
     def rhs(self, state: Array) -> Array:
         n_x, n_y, mu, w, _, _, _, _, _, energy, l_z, carter = state
@@ -76,26 +80,29 @@ class MinoSystem:
         """Mask (N,): going in, with no turning point left."""
         return (state[W] * self.stop > 1.0) & (state[W_DOT] > 0.0)
 
-    def radius(self, state: Array) -> Array:
-        """Boyer-Lindquist r in M, (N,)."""
-        return 1.0 / state[W]
+    def place(self, state: Array) -> tuple[Array, Array]:
+        """(r_s/r (N,), unit vector (3, N) of Boyer-Lindquist theta and phi)."""
+        c, s = np.cos(state[TWIST]), np.sin(state[TWIST])
+        return 2.0 * state[W], np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z]])
 
-    def azimuth(self, state: Array) -> Array:
-        return np.arctan2(state[N_Y], state[N_X]) + state[TWIST]
+    def momentum(self, state: Array) -> tuple[Array, Array]:
+        """(k_r, k_theta), each (N,), of the photon that arrives; in units of |E|, M = 1.
 
-    def direction(self, state: Array) -> Array:
-        """World direction at infinity (N, 3)."""
-        azimuth = self.azimuth(state)
-        n = np.stack([np.cos(azimuth), np.sin(azimuth), state[N_Z] / np.hypot(state[N_X], state[N_Y])], axis=1)
-        return n / np.linalg.norm(n, axis=1, keepdims=True)
+        r' = -w'/w^2 = Delta p_r and theta' = n'.e_theta = p_theta of the ray traced backwards, whose photon arrives with the opposite momentum.
+        """
+        n_x, n_y, n_z, w = state[:4]
+        delta = (1.0 - self.r_plus * w) * (1.0 - (2.0 - self.r_plus) * w)  # Delta w^2
+        ring = np.hypot(n_x, n_y)
+        theta_dot = n_z * (n_x * state[NX_DOT] + n_y * state[NY_DOT]) / ring - ring * state[NZ_DOT]
+        return state[W_DOT] / (delta * np.abs(state[ENERGY])), -theta_dot / np.abs(state[ENERGY])
 
-    def start(self, place: Place, momenta: Momenta) -> Array:
+    def start(self, place: Place, photons: Momenta) -> Array:
         """State (12, N) of photons at a finite place."""
         r = place.r
         sigma = r * r + (self.spin * place.cos_theta) ** 2
         delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
-        inward = -momenta.radial * math.sqrt(sigma * delta) / (r * r)
-        return self._state(place, 1.0 / r, inward, momenta.p_theta, momenta.l_over_sin, momenta.energy)
+        inward = -photons.radial * math.sqrt(sigma * delta) / (r * r)
+        return self._state(place, 1.0 / r, inward, photons.p_theta, photons.l_over_sin, photons.energy)
 
     def start_at_infinity(self, place: Place, screen: Array) -> Array:
         """State (12, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
@@ -110,3 +117,14 @@ class MinoSystem:
         state[ENERGY], state[L] = energy, place.sin_theta * l_over_sin
         state[Q] = p_theta**2 + place.cos_theta**2 * (l_over_sin**2 - (self.spin * energy) ** 2)
         return state
+
+
+@twin("kerr_schild", metric="kerr")
+def mino_form(view: View) -> Traced:
+    """Light of Kerr by this form."""
+    system, place = MinoSystem(-view.spin), view.place_in_m
+    if view.at_infinity:
+        state = system.start_at_infinity(place, view.rays)
+    else:
+        state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
+    return follow(view, system, state, state[ENERGY].copy(), -state[L])

@@ -1,4 +1,4 @@
-"""Twins of the ray models `schwarzschild` (gravity strength G) and `kerr_like` (float64, r_s = 1).
+"""Schwarzschild's light as a plane that turns and Binet's equation in it (float64, r_s = 1): twins of `schwarzschild` and `kerr_like`.
 
 The model is x'' = -(3/2) G h^2 x/r^5 with h = |x cross v|. It is planar, so with d sigma = d t/r^2 (t: the model's
 own parameter, normalised to E = 1) the plane turns uniformly and what is left is Binet's equation,
@@ -23,20 +23,23 @@ import math
 
 import numpy as np
 
+from .hits import Traced
+from .marching import follow
 from .observers import Place
+from .registry import View, twin
 
 Array = np.ndarray
 
-# Rows of the state; the first four are shared with the Kerr system.
+# Rows of the state.
 N_X, N_Y, N_Z, W, W_DOT, E_X, E_Y, E_Z, H, TAU = range(10)
 
 
-class SchwarzschildSystem:
-    """gravity_strength: G; horizon_size: radius of capture in r_s; twist: k a*, 0 for plain Schwarzschild."""
+class BinetSystem:
+    """gravity_strength: G; capture_radius in r_s; twist: k a*, 0 for plain Schwarzschild."""
 
-    def __init__(self, gravity_strength: float, horizon_size: float, twist: float = 0.0):
+    def __init__(self, gravity_strength: float, capture_radius: float, twist: float = 0.0):
         self.bending = 1.5 * gravity_strength
-        self.horizon_size = horizon_size
+        self.capture_radius = capture_radius
         self.twist = twist
 
     def rhs(self, state: Array) -> Array:
@@ -64,21 +67,24 @@ class SchwarzschildSystem:
         return after
 
     def captured(self, state: Array) -> Array:
-        return state[W] * self.horizon_size > 1.0
+        return state[W] * self.capture_radius > 1.0
 
-    def radius(self, state: Array) -> Array:
-        """r in r_s, (N,)."""
-        return 1.0 / state[W]
-
-    def azimuth(self, state: Array) -> Array:
-        return np.arctan2(state[N_Y], state[N_X]) + state[TAU]
-
-    def direction(self, state: Array) -> Array:
-        """World direction at infinity (N, 3)."""
-        x, y, z = state[N_X:W]
+    def place(self, state: Array) -> tuple[Array, Array]:
+        """(r_s/r (N,), unit vector (3, N)): n turned by tau."""
         c, s = np.cos(state[TAU]), np.sin(state[TAU])
-        n = np.stack([c * x - s * y, s * x + c * y, z], axis=1)
-        return n / np.linalg.norm(n, axis=1, keepdims=True)
+        return state[W], np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z]])
+
+    def momentum(self, state: Array) -> tuple[Array, Array]:
+        """(k_r, k_theta), each (N,), of the photon that arrives; E = 1, M = 1. NaN at G != 1, where the orbits are no light of Schwarzschild.
+
+        Schwarzschild's own, r^2 dr/dt = -w' and r^2 dtheta/dt = h e.e_theta of the ray traced backwards; tau turns them about the axis and
+        changes neither.
+        """
+        if self.bending != 1.5:
+            return np.full((2, state.shape[1]), np.nan)
+        ring = np.hypot(state[N_X], state[N_Y])
+        along_theta = state[N_Z] * (state[N_X] * state[E_X] + state[N_Y] * state[E_Y]) / ring - ring * state[E_Z]
+        return state[W_DOT] / (1.0 - state[W]), -2.0 * state[H] * along_theta
 
     def start(self, place: Place, directions: Array) -> Array:
         """State (10, N) for local directions (N, 3) of the static observer at `place` (r in r_s)."""
@@ -103,3 +109,29 @@ class SchwarzschildSystem:
         state[W], state[W_DOT], state[H] = w, w_dot, h
         state[E_X:H] = tangent / np.where(tangent_size > 0.0, tangent_size, 1.0)
         return state
+
+
+_STRENGTHS = {"gravity_strength": "hole.gravity_strength", "horizon_size": "hole.horizon_size"}
+
+
+@twin("schwarzschild", "schwarzschild_table", metric="schwarzschild", spins=False, parameters=_STRENGTHS)
+def binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0) -> Traced:
+    """gravity_strength: G, 1 is physics; horizon_size: radius of capture in horizon radii."""
+    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon))
+
+
+@twin("kerr_like", metric="schwarzschild", parameters={**_STRENGTHS, "drag": "rays.kerr_like.drag"})
+def twisted_binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0) -> Traced:
+    """As `binet_form`, turned about the axis; drag: k."""
+    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon, drag * view.spin))
+
+
+def _traced(view: View, system: BinetSystem) -> Traced:
+    place = view.place
+    if view.at_infinity:
+        state = system.start_at_infinity(place, view.screen)
+        l_z = -view.rays[:, 0] * place.sin_theta
+    else:
+        state = system.start(place, view.rays)
+        l_z = -2.0 * place.r * place.sin_theta * view.rays[:, 2] / math.sqrt((place.r - 1.0) / place.r)
+    return follow(view, system, state, np.ones(len(view.rays)), l_z)

@@ -1,0 +1,149 @@
+"""What marched rays meet: events along a ray, found on the ray itself (float64).
+
+An event is a function of the place along the ray, Boyer-Lindquist's 1/r and the world unit vector n of theta and phi, that vanishes where
+the event is. `Watch` looks at both ends of every accepted step; where an event's function changes sign in between, its zero is located by
+Newton's method with fresh steps of the integrator (`integrator.locate_zero`), and place and momentum there are recorded.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from .hits import CAPTURED, ESCAPED, UNRESOLVED, Crossings
+from .integrator import System, locate_zero, rate_along
+
+Array = np.ndarray
+
+IN_PLANE = 1e-15
+"""A camera this near to a plane (sine of the angle) is in it: a few roundings of a unit vector."""
+
+
+class RaySystem(System, Protocol):
+    """What the watch asks of a marched ray model, beside what the integrator asks."""
+
+    capture_radius: float
+    """r in r_s below which a ray that goes in is captured."""
+
+    def place(self, state: Array) -> tuple[Array, Array]:
+        """(r_s/r (N,), world unit vector (3, N) of Boyer-Lindquist theta and phi). Regular through infinity, where r_s/r changes sign."""
+
+    def momentum(self, state: Array) -> tuple[Array, Array]:
+        """(k_r, k_theta), each (N,), of the photon that arrives: see `hits.Crossings`."""
+
+    def captured(self, state: Array) -> Array:
+        """Mask (N,): inside `capture_radius` with no way back."""
+
+
+class Event(Protocol):
+    """A function of the place along the ray that vanishes where the event is."""
+
+    def value(self, inverse_radius: Array, n: Array) -> Array:
+        """(N,) from r_s/r (N,) and n (3, N)."""
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """r = `radius` in r_s, which may be infinite."""
+
+    radius: float
+
+    def value(self, inverse_radius: Array, n: Array) -> Array:
+        return inverse_radius - 1.0 / self.radius
+
+
+@dataclass(frozen=True)
+class Plane:
+    """The plane through the hole with the unit normal `normal` (3,)."""
+
+    normal: Array
+
+    def value(self, inverse_radius: Array, n: Array) -> Array:
+        return self.normal @ n
+
+    @property
+    def equatorial(self) -> bool:
+        return not np.any(self.normal[:2])
+
+
+INFINITY = Sphere(math.inf)
+
+
+class Watch:
+    """The monitor of a march: the fates of its rays and their crossings of `planes`, at most `orders` of each.
+
+    A step that ends in the hole is looked at as far as `innermost` (r in r_s), since Boyer-Lindquist's azimuth has no limit at the horizon.
+
+    Attributes: fate (N,) int8, direction (N, 3), crossings (N, planes, orders), as in `hits.Traced`.
+    """
+
+    def __init__(self, system: RaySystem, state: Array, planes: Sequence[Plane], orders: int, innermost: float):
+        count = state.shape[1]
+        self.fate = np.full(count, UNRESOLVED, dtype=np.int8)
+        self.direction = np.zeros((count, 3))
+        self.crossings = Crossings.none(count, len(planes), orders)
+        self._system = system
+        self._planes = planes
+        self._orders = orders
+        self._innermost = Sphere(max(innermost, system.capture_radius))
+        self._travelled = np.zeros(count)
+        self._found = np.zeros((len(planes), count), dtype=np.int64)
+        # A camera in the plane (side 0) takes the side its ray leaves to; its own place is no crossing.
+        with np.errstate(divide="ignore"):  # r is infinite at infinity
+            start = np.stack([self._value(plane)(state) for plane in planes])
+        self._side = np.where(np.abs(start) > IN_PLANE, np.sign(start), 0.0)
+
+    def __call__(self, rays: Array, before: Array, after: Array, step: Array) -> Array:
+        escaped = self._value(INFINITY)(after) <= 0.0
+        captured = ~escaped & self._system.captured(after)
+        self.fate[rays[escaped]], self.fate[rays[captured]] = ESCAPED, CAPTURED
+        last, end = after.copy(), step.copy()
+        for part, event in ((escaped, INFINITY), (captured & (self._value(self._innermost)(before) < 0.0), self._innermost)):
+            if part.any():
+                end[part], last[:, part] = self._locate(event, before[:, part], after[:, part], step[part])
+        n = self._system.place(last[:, escaped])[1].T
+        self.direction[rays[escaped]] = n / np.linalg.norm(n, axis=1, keepdims=True)
+        watched = ~captured | (end < step)
+        for index, plane in enumerate(self._planes):
+            self._look(index, plane, rays[watched], before[:, watched], last[:, watched], end[watched])
+        self._travelled[rays] += step
+        return escaped | captured
+
+    def _value(self, event: Event) -> Callable[[Array], Array]:
+        return lambda state: event.value(*self._system.place(state))
+
+    def _locate(self, event: Event, before: Array, after: Array, step: Array) -> tuple[Array, Array]:
+        return locate_zero(self._system.rhs, self._value(event), before, after, step)
+
+    def _look(self, index: int, plane: Plane, rays: Array, before: Array, after: Array, step: Array) -> None:
+        """One plane in one step: the step whole, or in two pieces where the ray comes near the plane and goes away again within it."""
+        returning = np.zeros(rays.size, dtype=bool)
+        if not plane.equatorial:  # theta swings about the equator itself: there a ray that nears it goes through
+            value, rate = self._value(plane), rate_along(self._system.rhs, self._value(plane))
+            returning = (value(before) * rate(before, step) < 0.0) & (value(after) * rate(after, step) > 0.0) & (value(before) * value(after) > 0.0)
+        whole = ~returning
+        self._cross(index, plane, rays[whole], before[:, whole], after[:, whole], step[whole], 0.0)
+        if returning.any():
+            rays, before, after, step = rays[returning], before[:, returning], after[:, returning], step[returning]
+            nearest, middle = locate_zero(self._system.rhs, lambda state: rate(state, step), before, after, step)
+            self._cross(index, plane, rays, before, middle, nearest, 0.0)
+            self._cross(index, plane, rays, middle, after, step - nearest, nearest)
+
+    def _cross(self, index: int, plane: Plane, rays: Array, before: Array, after: Array, step: Array, offset: Array | float) -> None:
+        """Records the crossing of each ray whose side of the plane changes between two states; `offset`: of `before` from the step's start."""
+        side = np.sign(self._value(plane)(after))
+        part = np.flatnonzero((side * self._side[index, rays] < 0.0) & (self._found[index, rays] < self._orders))
+        self._side[index, rays] = np.where(side != 0.0, side, self._side[index, rays])
+        if not part.size:
+            return
+        parameter, state = self._locate(plane, before[:, part], after[:, part], step[part])
+        inverse_radius, n = self._system.place(state)
+        crossing = rays[part]
+        along = self._travelled[crossing] + np.broadcast_to(offset, rays.shape)[part] + parameter
+        where = (crossing, index, self._found[index, crossing])
+        self.crossings.record(where, along, 1.0 / inverse_radius, n, self._system.momentum(state))
+        self._found[index, crossing] += 1

@@ -1,0 +1,119 @@
+"""Which function is the twin of which ray model: what a twin is given, what it gives back, and how it is found.
+
+A twin says of itself what it is:
+
+    @twin("my_model", metric=None, parameters={"strength": "rays.my_model.strength"})
+    def my_model(view: View, strength: float = 1.0) -> Traced: ...
+
+A file with that in this folder is all there is to adding one: importing the package imports its modules.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .hits import Traced
+from .observers import Place
+
+Array = np.ndarray
+
+METRICS = ("flat", "schwarzschild", "kerr")
+
+
+@dataclass(frozen=True)
+class View:
+    """The rays that a twin is to trace, and the camera that they leave from.
+
+    Attributes:
+        rays: (N, 3) unit look directions (n_r, n_theta, n_phi) in the observer's frame; (N, 2) alpha, beta in M where the camera is at infinity.
+        place: the camera's place, r in r_s.
+        spin: a*; 0 where the twin says that it has none.
+        observer: "static" or "zamo", as used.
+        horizon: r in r_s of the metric's horizon; of Kerr's, with this spin, where a model has no such metric.
+        planes: (P, 3) unit normals of the planes through the hole whose crossings are asked for; the equatorial one first.
+        orders: crossings kept of each plane.
+        tolerance: error allowed per step of the integrator.
+    """
+
+    rays: Array
+    place: Place
+    spin: float
+    observer: str
+    horizon: float
+    planes: Array
+    orders: int
+    tolerance: float
+
+    @property
+    def at_infinity(self) -> bool:
+        return math.isinf(self.place.r)
+
+    @property
+    def place_in_m(self) -> Place:
+        """The camera's place with r in M."""
+        return replace(self.place, r=2.0 * self.place.r)
+
+    @property
+    def screen(self) -> Array:
+        """(N, 2) alpha, beta in r_s of a camera at infinity."""
+        return 0.5 * self.rays
+
+
+@dataclass(frozen=True)
+class Twin:
+    """A twin and what it says about itself.
+
+    Attributes:
+        trace: gives what the rays of a `View` meet, from it and from parameters by name.
+        metric: one of `METRICS`, in which its photons' momenta are null; None for a model whose rays are no light in any metric.
+        spins: whether the hole's spin means anything to it.
+        parameters: what `trace` calls its parameters → the scene keys that hold their values.
+    """
+
+    trace: Callable[..., Traced]
+    metric: str | None
+    spins: bool = True
+    parameters: Mapping[str, str] = field(default_factory=dict)
+
+
+_Trace = Callable[..., Traced]
+_TWINS: dict[str, Twin] = {}
+
+
+def twin(*models: str, metric: str | None, spins: bool = True, parameters: Mapping[str, str] | None = None) -> Callable[[_Trace], _Trace]:
+    """Makes the decorated function the twin of `models`; see `Twin` for what it declares.
+
+    Raises:
+        ValueError: one of the models has a twin already, or there is no such metric.
+    """
+    if metric is not None and metric not in METRICS:
+        raise ValueError(f"twin of {', '.join(models)}: got the metric {metric!r}; allowed are {', '.join(METRICS)} and None")
+
+    def register(trace: _Trace) -> _Trace:
+        for model in models:
+            if model in _TWINS:
+                raise ValueError(f"ray model {model!r} has two twins: {_TWINS[model].trace.__module__} and {trace.__module__}")
+            _TWINS[model] = Twin(trace, metric, spins, dict(parameters or {}))
+        return trace
+
+    return register
+
+
+def models() -> tuple[str, ...]:
+    """The ray models that have a twin, in alphabetical order."""
+    return tuple(sorted(_TWINS))
+
+
+def twin_of(model: str) -> Twin:
+    """The twin of the ray model with the key `model`.
+
+    Raises:
+        ValueError: it has none; the text lists those that do.
+    """
+    if model not in _TWINS:
+        raise ValueError(f"ray model {model!r} has no float64 twin; those with one: {', '.join(models())}")
+    return _TWINS[model]
