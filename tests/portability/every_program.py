@@ -6,15 +6,16 @@ import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from blackhole_gl import plan
+from blackhole_gl.plan import Plan, plan
 from blackhole_gl.render.diagnostics import most_accurate, prepared
+from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, catalogue, fields, presets
 
-Wanted = tuple[str, str, Scene, plan.RayPlan, Mapping[str, int]]
-"""A program's path, what it is for, the scene and plan that shape it, the switches beyond the scene's own."""
+Wanted = tuple[str, str, Plan, Mapping[str, int]]
+"""A program's path, what it is for, the plan that shapes it, the switches beyond the scene's own."""
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 
@@ -23,11 +24,11 @@ TRACED = ("trace.frag", "refine_nodes.frag", "refine_cells.frag", "refine_classe
 POST = ("post/bloom_down.frag", "post/bloom_up.frag", "post/tone_table.frag", "post/tone_map.frag")
 
 
-class Compiled:
+class NoGL:
     """Stands for a program or its triangle: names nothing, holds nothing."""
 
     @property
-    def program(self) -> Compiled:
+    def program(self) -> NoGL:
         return self
 
     def __contains__(self, name: str) -> bool:
@@ -49,39 +50,39 @@ class Recorder:
         self.texts: dict[tuple[str, str], str] = {}
         self.asked = ""
 
-    def program(self, *, vertex_shader: str, fragment_shader: str) -> Compiled:
+    def program(self, *, vertex_shader: str, fragment_shader: str) -> NoGL:
         self.texts.setdefault((vertex_shader, fragment_shader), self.asked)
-        return Compiled()
+        return NoGL()
 
-    def vertex_array(self, program: Compiled, content: list) -> Compiled:
-        return Compiled()
+    def vertex_array(self, program: NoGL, content: list) -> NoGL:
+        return NoGL()
 
 
 def collect() -> Mapping[tuple[str, str], str]:
     """(vertex text, fragment text) → path and scene of every program."""
     recorder = Recorder()
     programs = Programs(recorder)
-    for path, name, scene, ray_plan, switches in itertools.chain(_of_scenes(), _of_views(), _of_methods()):
+    for path, name, made, switches in itertools.chain(_of_scenes(), _of_views(), _of_methods()):
         recorder.asked = f"{path} for {name}"
-        programs.get(path, scene, ray_plan, switches)
+        programs.get(path, FrameInputs.whole(made, 0.0, (16, 16)), switches)
     return recorder.texts
 
 
 def _of_scenes() -> Iterator[Wanted]:
     for name, scene in _scenes():
-        scene, ray_plan = plan.resolved(scene), plan.plan(scene)
-        yield from ((path, name, scene, ray_plan, {}) for path in TRACED)
-        yield from ((path, name, scene, ray_plan, TONE_TABLE) for path in POST)
-        yield from ((path, name, scene, ray_plan, {"HIT_MAP_REFINED": refined}) for path, refined in _readers(scene, ray_plan))
+        made = plan(scene)
+        yield from ((path, name, made, {}) for path in TRACED)
+        yield from ((path, name, made, TONE_TABLE) for path in POST)
+        yield from ((path, name, made, {"HIT_MAP_REFINED": refined}) for path, refined in _readers(made))
 
 
-def _readers(scene: Scene, ray_plan: plan.RayPlan) -> Iterator[tuple[str, int]]:
+def _readers(made: Plan) -> Iterator[tuple[str, int]]:
     """(path, HIT_MAP_REFINED) of what reads the hit map: sharp, refined, or where a refined one is flat."""
     yield "shade_classes.frag", 0
     yield "refine_resolve.frag", 1
-    if ray_plan.orders:
+    if made.orders:
         yield from (("shade_disk.frag", refined) for refined in (0, 1))
-    if scene.sky.enabled:
+    if made.scene.sky.enabled:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
 
 
@@ -99,19 +100,18 @@ def _scenes() -> Iterator[tuple[str, Scene]]:
 def _of_views() -> Iterator[Wanted]:
     for view, model in itertools.product(fields()["post.view"].options, ("kerr", "schwarzschild_table")):
         if view != "picture":
-            scene = presets.load(["kerr"], {"post.view": view, "rays.model": model})
-            scene, ray_plan = prepared(plan.resolved(scene), plan.plan(scene))
-            yield "trace.frag", f"the view {view} of {model}", scene, ray_plan, {}
-            yield f"views/{view}.frag", f"the view {view} of {model}", scene, ray_plan, {}
-            yield "trace.frag", f"the reference of {model}", *most_accurate(scene, ray_plan), {}
+            made = prepared(plan(presets.load(["kerr"], {"post.view": view, "rays.model": model})))
+            yield "trace.frag", f"the view {view} of {model}", made, {}
+            yield f"views/{view}.frag", f"the view {view} of {model}", made, {}
+            yield "trace.frag", f"the reference of {model}", most_accurate(made), {}
 
 
 def _of_methods() -> Iterator[Wanted]:
     kerr = presets.load(["kerr"])
     for name, values in _methods():
         for orders, view, listed in ((0, "picture", 0), (1, "conservation", 0), (3, "picture", 1)):
-            scene = kerr.with_values({**values, "post.view": view})
-            yield "trace.frag", f"{name}, {orders} orders", scene, replace(plan.plan(scene), orders=orders), {"RAYS_LISTED": listed}
+            made = replace(plan(kerr.with_values({**values, "post.view": view})), orders=orders)
+            yield "trace.frag", f"{name}, {orders} orders", made, {"RAYS_LISTED": listed}
 
 
 def _methods() -> Iterator[tuple[str, Mapping[str, object]]]:
