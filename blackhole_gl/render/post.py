@@ -124,7 +124,8 @@ class PostPass:
         self._size = size
 
     def _level(self, size: tuple[int, int], allocated: tuple[int, int]) -> _Level:
-        texture = self._ctx.texture(allocated, 4, dtype="f2")
+        # Filled: what is never drawn is read all the same, by a linear filter with weight 0, which a NaN that the memory held would survive.
+        texture = self._ctx.texture(allocated, 4, bytes(8 * allocated[0] * allocated[1]), dtype="f2")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
         frame = self._ctx.framebuffer([texture])
