@@ -117,7 +117,7 @@ def _of_methods() -> Iterator[Wanted]:
 def _methods() -> Iterator[tuple[str, Mapping[str, object]]]:
     """(name, scene values) of every ray model, and of a marched one with every integrator and step control that fit."""
     for key, model in catalogue.plug_ins("ray_model").items():
-        if model.traits["kind"] == "closed":
+        if model.traits.kind == "closed":
             yield key, {"rays.model": key}
             switches = [(name, value) for name, item in model.parameters.items() if item.kind == "switch" for value in (False, True)]
             yield from ((f"{key}, {name} {value}", {"rays.model": key, name: value}) for name, value in switches)

@@ -2,12 +2,13 @@
 
     python -m tests.portability.on_driver FOLDER
 
-writes FOLDER/NAME.png for every picture and FOLDER/NAME.npz (fates, directions, crossings) for every preset, and prints the driver's name.
+writes FOLDER/NAME.png for every picture and FOLDER/NAME.npz (a `TracedRays`) for every preset, and prints the driver's name.
 """
 
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,7 @@ def main(folder: Path) -> None:
     renderer = Renderer(ctx)
     for name in METHODS:
         found = listed_rays.trace_by_shader(renderer, *scene_and_rays(name))
-        np.savez(folder / f"{name}.npz", fate=found.fate, direction=found.direction, crossing_r=found.crossing_r, crossing_g=found.crossing_g)
+        np.savez(folder / f"{name}.npz", **asdict(found))
     for name, shot in SHOTS.items():
         renderer.render_still(presets.load([*shot.presets], dict(shot.changes)), shot.time, SIZE, 2)
         Image.fromarray(renderer.read_rgb8()).save(folder / f"{name}.png")
