@@ -4,7 +4,7 @@
 #defines
 #blocks
 
-uniform sampler2D cell_classes; // eight bits, the nearest: software renderers fetch that in two thirds of the time of texelFetch
+uniform sampler2D cell_classes; // eight bits, the nearest: docs/llvmpipe.md, texels
 uniform vec2 pixels_to_cells;   // 1/(REFINE_STEP·cells)
 uniform float all_traced;       // 1 where every pixel now has a ray of its own, whatever its cell is like; else 0
 

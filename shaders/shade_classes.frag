@@ -1,6 +1,6 @@
 #version 330 core
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
-// do not need them. (A branch would not: llvmpipe runs both sides of every branch for every pixel.)
+// do not need them. (A branch would not: docs/llvmpipe.md.)
 //
 // PIXEL_MATTER, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
 // than another, one draw each. The few that cross the disk and are not of the sky are black in it.

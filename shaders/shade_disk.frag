@@ -7,7 +7,7 @@
 //     changes matter.density, 1 on a smooth disk, keeping its mean near 1. Detail below matter.footprint must be faded out.
 //     Motion: shear_phase = (age₀, age₁, weight₀, weight₁) and shear_seed (blackhole_gl/physics/shear.py): two patterns that are
 //     born, sheared and replaced in turn, so that the shear never winds up.
-//     Loops that run a known number of times are best written do … while: llvmpipe runs a for loop's body once too often.
+//     Loops that run a known number of times are best written do … while (docs/llvmpipe.md).
 #defines
 #blocks
 #include "common/constants.glsl"

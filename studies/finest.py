@@ -1,4 +1,4 @@
-"""What the finest steps reach: issue 3's bounds for rays off the critical curve, and fates close to it."""
+"""What the finest steps reach: their bounds for rays off the critical curve, and fates close to it."""
 
 from __future__ import annotations
 

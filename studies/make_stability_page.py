@@ -1,4 +1,4 @@
-"""Runs every stability case through every method and writes docs/stability.md and tests/stability/verdicts.csv; `make stability`.
+"""Runs every stability case through every method and writes docs/data/stability.csv, and docs/stability.md from it; `make stability`.
 
 --only WORD runs the methods whose names hold the word and keeps the rest as stored. Words of their own: `default`, each model's default method; `viewer`,
 the viewer's own cases; `missing`, what is not stored yet, with which an interrupted run goes on. --check writes nothing and says what differs.
@@ -20,17 +20,17 @@ from studies.stability_viewer import VIEWER_CASES
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "stability.md"
-TABLE = ROOT / "tests" / "stability" / "verdicts.csv"
+TABLE = ROOT / "docs" / "data" / "stability.csv"
 
 DEFAULT_RAYS = 1_000_000
 """Rays of a sweep through a model's default method."""
 
 
-Table = dict[tuple[str, str], stability.Outcome]
+Table = dict[tuple[str, str], stability.Judgement]
 
 
 def measure(renderer: Renderer, rays: int, full: bool, only: str, old: Table, keep: Callable[[Table], None]) -> Table:
-    """The outcome of every cell, in the page's order; those of methods that `only` leaves out are taken from `old`.
+    """The judgement of every cell, in the page's order; those of methods that `only` leaves out are taken from `old`.
 
     Args:
         keep: called with what there is after each method that ran.

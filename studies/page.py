@@ -217,7 +217,7 @@ strip a few cells wide along edges and creases, and its share falls as the numbe
 
 def _validation(found: Validation) -> str:
     lines = [
-        "## S1's validation, made again",
+        "## BlackHoleGPU's validation, made again",
         "",
         "The report of BlackHoleGPU (October 2025) states three checks: drift of conserved quantities under 1 % over 1,000 steps, the photon sphere to 0.1 %, and deflection against 4GM/c²b.",
         "",

@@ -48,7 +48,7 @@ def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, comma
     points = critical.near_critical(renderer, scenes, quick)
     progress(0.95, "cost against pixels")
     costs = sizes.costs(renderer, presets.load(["kerr"]), quick)
-    progress(0.98, "S1's validation")
+    progress(0.98, "BlackHoleGPU's validation")
     validation = validate(renderer)
     best = finest(renderer, scenes)
     progress(0.99, "pictures and page")

@@ -38,8 +38,8 @@ _SHADOW_TRIALS, _SHADOW_ROUNDS = 48, 5
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What one case made of one method.
+class Judgement:
+    """How one method did in one case.
 
     Attributes:
         verdict: ``fine``, ``degraded``, ``fails`` or ``does not apply``.
@@ -94,22 +94,22 @@ def chosen(method: Method) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value != ""}
 
 
-def run(renderer: Renderer, case: Case, method: Method, rays: int = 20_000) -> Outcome:
-    """The outcome of one cell; `rays` is the size of a sweep."""
+def run(renderer: Renderer, case: Case, method: Method, rays: int = 20_000) -> Judgement:
+    """The judgement of one cell; `rays` is the size of a sweep."""
     facts = traits(method)
     if case.needs == "steps" and facts.kind == "closed":
-        return Outcome(NOT_APPLICABLE, "takes no steps")
+        return Judgement(NOT_APPLICABLE, "takes no steps")
     if case.key == "sweep-art" and facts.marches_in != "cartesian":
-        return Outcome(NOT_APPLICABLE, "knows no artistic gravity")
+        return Judgement(NOT_APPLICABLE, "knows no artistic gravity")
     if case.needs == "spin" and not facts.spins:
-        return Outcome(NOT_APPLICABLE, "knows no spin")
+        return Judgement(NOT_APPLICABLE, "knows no spin")
     if case.measure == "sweep":
         return sweep(renderer, method, rays, artistic=bool(case.values))
     scene = scene_of(case, method)
     try:
         observer.observe(scene)
     except ValueError:
-        return Outcome(NOT_APPLICABLE, "its horizon encloses the camera, which is refused")
+        return Judgement(NOT_APPLICABLE, "its horizon encloses the camera, which is refused")
     if case.measure == "shadow":
         return _judge_shadow(renderer, scene)
     return _judge_rays(renderer, scene, case)
@@ -120,29 +120,29 @@ def scene_of(case: Case, method: Method) -> Scene:
     return presets.load(["reference"], {"disk.outer_radius": 20.0, **case.values, **chosen(method)})
 
 
-def _judge_rays(renderer: Renderer, scene: Scene, case: Case) -> Outcome:
+def _judge_rays(renderer: Renderer, scene: Scene, case: Case) -> Judgement:
     rays = case.rays(scene)
     directions = observer.local_directions(rays[:, 0], rays[:, 1])
     hits, _, _ = renderer.trace_listed(scene, directions)
     truth = _truth(case.key, *_true_model(scene))
     if bad := _not_finite(hits):
-        return Outcome(FAILS, f"{bad} of {len(rays)} not finite")
+        return Judgement(FAILS, f"{bad} of {len(rays)} not finite")
     unresolved = np.count_nonzero(hits.fate == UNRESOLVED)
     if unresolved:
-        return Outcome(FAILS, f"{unresolved} of {len(rays)} unresolved")
+        return Judgement(FAILS, f"{unresolved} of {len(rays)} unresolved")
     wrong = np.count_nonzero(hits.fate != truth.fate)
     if wrong and case.fates:
-        return Outcome(FAILS, f"{wrong} of {len(rays)} wrong fates")
+        return Judgement(FAILS, f"{wrong} of {len(rays)} wrong fates")
     both = (hits.fate == ESCAPED) & (truth.fate == ESCAPED)
     angle = np.linalg.norm(hits.direction[both] - truth.direction[both], axis=1)
     shift, lost = _crossing_errors(scene, hits, truth)
     error = max(angle.max(initial=0.0), shift)
     if case.floor >= math.pi:
-        return Outcome(FINE, "", error)
+        return Judgement(FINE, "", error)
     fine, fails = max(HALF_PIXEL, case.floor), max(DEGREE, case.floor)
     if lost:
-        return Outcome(FAILS, f"{lost} disk crossings lost or made up", error)
-    return Outcome(FINE if error <= fine else DEGRADED if error <= fails else FAILS, "" if error <= fails else "direction or crossing", error)
+        return Judgement(FAILS, f"{lost} disk crossings lost or made up", error)
+    return Judgement(FINE if error <= fine else DEGRADED if error <= fails else FAILS, "" if error <= fails else "direction or crossing", error)
 
 
 def _true_model(scene: Scene) -> tuple[str, float]:
@@ -189,19 +189,19 @@ def _crossing_errors(scene: Scene, hits: HitArrays, truth: reference.ReferenceHi
     return float(shift.max(initial=0.0)), int(np.count_nonzero(lost | made_up))
 
 
-def _judge_shadow(renderer: Renderer, scene: Scene) -> Outcome:
+def _judge_shadow(renderer: Renderer, scene: Scene) -> Judgement:
     if not _is_curved(scene):
-        return Outcome(NOT_APPLICABLE, "flat space has no such shadow")
+        return Judgement(NOT_APPLICABLE, "flat space has no such shadow")
     found, unresolved = measured_edge(renderer, scene, CHI)
     if unresolved:
-        return Outcome(FAILS, f"{unresolved} rays unresolved")
+        return Judgement(FAILS, f"{unresolved} rays unresolved")
     signed = found / shadow_edge(scene, CHI) - 1.0
     worst = float(signed[np.argmax(np.abs(signed))])
     error = abs(worst)
     if error <= SHADOW_FINE:
-        return Outcome(FINE, "", error)
+        return Judgement(FINE, "", error)
     note = f"{100.0 * error:.2g} % too {'large' if worst > 0.0 else 'small'}"
-    return Outcome(DEGRADED if error <= SHADOW_FAILS else FAILS, note, error)
+    return Judgement(DEGRADED if error <= SHADOW_FAILS else FAILS, note, error)
 
 
 def measured_edge(renderer: Renderer, scene: Scene, chi: np.ndarray) -> tuple[np.ndarray, int]:
@@ -223,7 +223,7 @@ OTHER_SWEEP_RAYS = 16_000
 """Rays of a sweep through a method that is not its model's default, on the page and wherever it is checked: another number means other scenes."""
 
 
-def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False, seed: int = 9) -> Outcome:
+def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False, seed: int = 9) -> Judgement:
     """`rays` random rays in random scenes: all finite, all with a fate; and for exact models the right one, by the closed form of the fate."""
     total = unresolved = bad = wrong = 0
     judged = traits(method).exact and traits(method).space_time != "flat" and not artistic
@@ -235,12 +235,12 @@ def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False,
         if judged:
             wrong += np.count_nonzero((hits.fate == CAPTURED) != _falls_in(scene, directions))
     if bad:
-        return Outcome(FAILS, f"{bad} of {total} not finite")
+        return Judgement(FAILS, f"{bad} of {total} not finite")
     if unresolved:
-        return Outcome(FAILS if unresolved > 1e-3 * total else DEGRADED, f"{unresolved} of {total} unresolved", unresolved / total)
+        return Judgement(FAILS if unresolved > 1e-3 * total else DEGRADED, f"{unresolved} of {total} unresolved", unresolved / total)
     if wrong > _FATE_SHARE * total:
-        return Outcome(FAILS, f"{wrong} of {total} wrong fates", wrong / total)
-    return Outcome(FINE, "", wrong / total if judged else math.nan)
+        return Judgement(FAILS, f"{wrong} of {total} wrong fates", wrong / total)
+    return Judgement(FINE, "", wrong / total if judged else math.nan)
 
 
 def _falls_in(scene: Scene, directions: np.ndarray) -> np.ndarray:

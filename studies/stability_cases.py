@@ -1,4 +1,4 @@
-"""Where methods fail: SPEC §9 as named cases with concrete initial conditions. Data alone; `stability` runs it.
+"""Where methods fail: named cases with concrete initial conditions. Data alone; `stability` runs it.
 
 Lengths in r_s = 1, angles in radians. Rays are (N, 2) arrays of ψ (angle from the hole's centre) and χ (on the screen from right towards up).
 """
@@ -28,7 +28,22 @@ SHADOW_FINE, SHADOW_FAILS = 1e-3, 3e-2
 
 FLOOR = 5e-6
 """rad: a float32 ray at the relative distance ε from the critical curve errs by up to FLOOR/ε, crossings included, where the march is
-Cartesian; by a tenth of it in Mino time. Typical are 3e-7/ε and 1e-7/ε (SPEC §9.6)."""
+Cartesian; by a tenth of it in Mino time. Typical are 3e-7/ε and 1e-7/ε."""
+
+Topic = Literal[
+    "observer's frame",
+    "force law",
+    "special directions",
+    "long steps",
+    "end of the march",
+    "critical curve",
+    "inside the photon sphere",
+    "coordinates",
+    "camera's place",
+    "extreme spins",
+    "whole range",
+]
+"""What a case is about."""
 
 # Eight screen directions: the four axes, where symmetries hide mistakes or make them, and four that lie on none.
 CHI = np.concatenate([0.5 * np.pi * np.arange(4), 0.5 * np.pi * np.arange(4) + 0.61])
@@ -40,7 +55,7 @@ class Case:
 
     Attributes:
         key: its name.
-        entry: the entry of SPEC §9 it stands for, e.g. ``9.3``; ``new`` for those found since.
+        topic: what it is about.
         title: what is asked, in a few words.
         why: what goes wrong in a method that fails.
         measure: ``rays`` (fates, directions, crossings), ``shadow`` (the angle of its edge) or ``sweep`` (random scenes: finite and resolved).
@@ -52,7 +67,7 @@ class Case:
     """
 
     key: str
-    entry: str
+    topic: Topic
     title: str
     why: str
     measure: Literal["rays", "shadow", "sweep"] = "rays"
@@ -142,7 +157,7 @@ def _critical(power: int) -> Case:
     epsilon = 10.0**-power
     return Case(
         f"critical-1e-{power}",
-        "9.6",
+        "critical curve",
         f"ε = ±1e-{power} from the critical curve, from 20 r_s",
         f"Errors grow as 1/ε: up to {min(FLOOR / epsilon, math.pi):.0e} rad is float32's own share.",
         values=_camera(20.0),
@@ -158,11 +173,11 @@ _POLE = "In (θ, φ) coordinates φ jumps by π at the pole and 1/sin θ has no 
 _HORIZON = "Redshift and shadow diverge: 1 − 1/r loses all its digits."
 
 CASES: tuple[Case, ...] = (
-    Case("shadow-15", "9.1", "Shadow's size for a static observer at 15 r_s", "Without √(1 − 1/R) in the observer's frame: 3.4 % too large.", "shadow", _camera(15.0)),
-    Case("shadow-3", "9.1", "The same at 3 r_s", "Without the observer's frame: 13 % too large.", "shadow", _camera(3.0)),
+    Case("shadow-15", "observer's frame", "Shadow's size for a static observer at 15 r_s", "Without √(1 − 1/R) in the observer's frame: 3.4 % too large.", "shadow", _camera(15.0)),
+    Case("shadow-3", "observer's frame", "The same at 3 r_s", "Without the observer's frame: 13 % too large.", "shadow", _camera(3.0)),
     Case(
         "shadow-far",
-        "9.2",
+        "force law",
         "Shadow's size from 1000 r_s",
         "No observer's frame to speak of: what is wrong here is the force law. Published viewers are 30 % off either way.",
         "shadow",
@@ -170,7 +185,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "weak-far",
-        "9.2",
+        "force law",
         "Deflection at b = 100 and 300 r_s, from 1000 r_s",
         "4GM/c²b is right; the post-Newtonian force bends half as much again.",
         values=_camera(1000.0),
@@ -178,17 +193,17 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "bend-10",
-        "9.2",
+        "force law",
         "Deflection at b = 5, 10 and 20 r_s, from 100 r_s",
         "First orders in r_s/b end here, and a wrong force shows in degrees.",
         values=_camera(100.0),
         rays=impact(5.0, 10.0, 20.0),
     ),
-    Case("radial-in", "9.3", "Exactly towards the hole", "L = 0: Binet's equation has no angle to march in.", values=_camera(20.0), rays=listed(0.0)),
-    Case("radial-out", "9.3", "Exactly away from the hole", "As above, and the ray's plane is undefined.", values=_camera(20.0), rays=listed(np.pi)),
+    Case("radial-in", "special directions", "Exactly towards the hole", "L = 0: Binet's equation has no angle to march in.", values=_camera(20.0), rays=listed(0.0)),
+    Case("radial-out", "special directions", "Exactly away from the hole", "As above, and the ray's plane is undefined.", values=_camera(20.0), rays=listed(np.pi)),
     Case(
         "near-radial",
-        "9.3",
+        "special directions",
         "0.006° and 6e-6° from both",
         "The ray's plane is the difference of two nearly equal directions.",
         values=_camera(20.0),
@@ -196,18 +211,18 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "tangential",
-        "9.3",
+        "special directions",
         "Across, and 0.006° inwards and outwards of it",
         "u' = −u cot ψ passes zero: first-order forms choose the wrong root.",
         values=_camera(20.0),
         rays=listed([0.5 * np.pi, 0.5 * np.pi - 1e-4, 0.5 * np.pi + 1e-4, 0.6 * np.pi]),
     ),
-    Case("tunnel-1", "9.4", "Steps of 1 r_s, b = 0.5", _TUNNEL, values=_coarse(1.0), rays=impact(0.5), needs="steps", floor=math.pi),
-    Case("tunnel-1.5", "9.4", "Steps of 1.5 r_s, b = 1.5", _TUNNEL, values=_coarse(1.5), rays=impact(1.5), needs="steps", floor=math.pi),
-    Case("tunnel-2", "9.4", "Steps of 2 r_s, b = 2.4", _TUNNEL, values=_coarse(2.0), rays=impact(2.4), needs="steps", floor=math.pi),
+    Case("tunnel-1", "long steps", "Steps of 1 r_s, b = 0.5", _TUNNEL, values=_coarse(1.0), rays=impact(0.5), needs="steps", floor=math.pi),
+    Case("tunnel-1.5", "long steps", "Steps of 1.5 r_s, b = 1.5", _TUNNEL, values=_coarse(1.5), rays=impact(1.5), needs="steps", floor=math.pi),
+    Case("tunnel-2", "long steps", "Steps of 2 r_s, b = 2.4", _TUNNEL, values=_coarse(2.0), rays=impact(2.4), needs="steps", floor=math.pi),
     Case(
         "false-capture",
-        "9.4",
+        "long steps",
         "Steps of 1 r_s, b = b_c (1 + 1e-4)",
         "Truncation errors near the photon sphere push a ray in that should turn.",
         values=_coarse(1.0),
@@ -217,7 +232,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "disk-jump",
-        "9.4",
+        "long steps",
         "Steps of 1 r_s over a thin disk seen from 85°",
         "A step that crosses the plane twice, or a position read off one end of the step, loses the disk.",
         values={**_coarse(1.0), "camera.inclination_deg": 85.0},
@@ -227,7 +242,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "stop-radius",
-        "9.5",
+        "end of the march",
         "Escape directions at b = 5…18 r_s from 20 r_s",
         "Where a march stops the ray is still bending: up to 2/R rad is missing.",
         values=_camera(20.0),
@@ -235,7 +250,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "stop-radius-outward",
-        "9.5",
+        "end of the march",
         "Rays that are outward bound from 10 r_s",
         "The same for rays that are outward bound from the start.",
         values=_camera(10.0),
@@ -244,7 +259,7 @@ CASES: tuple[Case, ...] = (
     *(_critical(power) for power in range(2, 8)),
     Case(
         "critical-kerr",
-        "9.6",
+        "critical curve",
         "ε = ±1e-3 from the critical curve at a* = 0.9",
         "As above, where both turning points are near each other.",
         values=_camera(20.0, spin=0.9),
@@ -254,7 +269,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "too-many-steps",
-        "9.6",
+        "critical curve",
         "ε = ±1e-4 with steps a fifth as long as the reference's",
         "Each step rounds: near the critical curve more steps make float32 worse, not better.",
         values=_camera(20.0, rays__step_angle=0.01, rays__step_length=0.028, rays__max_steps=30000),
@@ -264,16 +279,16 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "inside-shadow",
-        "9.7",
+        "inside the photon sphere",
         "Shadow's size from 1.2 r_s, inside the photon sphere",
         "“b < b_c is captured” is false here; the shadow is larger than half the sky.",
         "shadow",
         _camera(1.2),
     ),
-    Case("inside-sky", "9.7", "The whole sky from 1.2 r_s", "As above.", values=_camera(1.2, 60.0), rays=whole_sky(64)),
+    Case("inside-sky", "inside the photon sphere", "The whole sky from 1.2 r_s", "As above.", values=_camera(1.2, 60.0), rays=whole_sky(64)),
     Case(
         "pole",
-        "9.8",
+        "coordinates",
         "Rays over the poles, a* = 0",
         _POLE,
         values=_camera(20.0, 30.0),
@@ -281,7 +296,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "pole-kerr",
-        "9.8",
+        "coordinates",
         "Rays of no angular momentum over the poles, a* = 0.9",
         _POLE,
         values=_camera(20.0, 30.0, 0.9, camera__observer="zamo"),
@@ -290,7 +305,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "horizon-kerr",
-        "9.8",
+        "coordinates",
         "The whole sky from 5 r_s at a* = 0.9: turning points and the horizon",
         "Boyer–Lindquist φ winds up at the horizon; forms with ±√ stick at turning points.",
         values=_camera(5.0, 60.0, 0.9),
@@ -299,7 +314,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "flat-side",
-        "9.8",
+        "coordinates",
         "The shadow's outline at a* = 0.95 from the plane",
         "Ingoing coordinates for backward rays put its flat side where the disk recedes.",
         "shadow",
@@ -308,7 +323,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "in-plane",
-        "9.9",
+        "camera's place",
         "Looking along the equatorial plane, a* = 0",
         _PLANE,
         values=_camera(20.0, 90.0),
@@ -316,7 +331,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "in-plane-kerr",
-        "9.9",
+        "camera's place",
         "The same at a* = 0.9",
         _PLANE,
         values=_camera(20.0, 90.0, 0.9),
@@ -325,28 +340,28 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "near-plane",
-        "9.9",
+        "camera's place",
         "Camera at 89.99°",
         "Rays graze the disk: a crossing's place is known to no more than rounding over the angle.",
         values=_camera(20.0, 89.99),
         rays=whole_sky(64, 0.6, 0.02),
         floor=2e-3,
     ),
-    Case("axis", "9.9", "Camera on the axis", _POLE, values=_camera(20.0, 0.0), rays=whole_sky(64)),
-    Case("axis-kerr", "9.9", "Camera on the axis, below, at a* = 0.9", _POLE, values=_camera(20.0, 180.0, 0.9), rays=whole_sky(64), needs="spin"),
+    Case("axis", "camera's place", "Camera on the axis", _POLE, values=_camera(20.0, 0.0), rays=whole_sky(64)),
+    Case("axis-kerr", "camera's place", "Camera on the axis, below, at a* = 0.9", _POLE, values=_camera(20.0, 180.0, 0.9), rays=whole_sky(64), needs="spin"),
     Case(
         "ergosphere",
-        "9.9",
+        "camera's place",
         "Camera in the ergosphere: 0.85 r_s at a* = 0.9",
         "No observer can rest here: a static tetrad has no real γ, and light of negative energy arrives.",
         values=_camera(0.85, 85.0, 0.9),
         rays=whole_sky(64),
         needs="spin",
     ),
-    Case("horizon", "9.9", "Camera at 1.0001 r_s", _HORIZON, values=_camera(1.0001, 60.0), rays=whole_sky(64, away=3e-2)),
+    Case("horizon", "camera's place", "Camera at 1.0001 r_s", _HORIZON, values=_camera(1.0001, 60.0), rays=whole_sky(64, away=3e-2)),
     Case(
         "horizon-spinning",
-        "9.9",
+        "camera's place",
         "Camera a thousandth above the horizon of a* = 0.998",
         _HORIZON,
         values=_camera(0.5321, 60.0, 0.998),
@@ -355,16 +370,16 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "far-camera",
-        "9.9",
+        "camera's place",
         "Camera at 10⁴ r_s, b = 2…50 r_s",
         "Places far away leave float32 no digits near the hole.",
         values=_camera(1e4),
         rays=impact(2.0, 2.7, 5.0, 20.0, 50.0),
     ),
-    Case("spin-tiny", "9.10", "a* = 1e-8", "Closed forms that divide by a.", values=_camera(10.0, 60.0, 1e-8), rays=whole_sky(64), needs="spin"),
+    Case("spin-tiny", "extreme spins", "a* = 1e-8", "Closed forms that divide by a.", values=_camera(10.0, 60.0, 1e-8), rays=whole_sky(64), needs="spin"),
     Case(
         "spin-limit",
-        "9.10",
+        "extreme spins",
         "a* = 0.9999, from 5 r_s",
         "√(1 − a²) and the throat it leaves.",
         values=_camera(5.0, 75.0, 0.9999),
@@ -374,7 +389,7 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "spin-limit-reversed",
-        "9.10",
+        "extreme spins",
         "a* = −0.9999, from 5 r_s",
         "The same, turning the other way.",
         values=_camera(5.0, 75.0, -0.9999),
@@ -384,14 +399,14 @@ CASES: tuple[Case, ...] = (
     ),
     Case(
         "sweep",
-        "new",
+        "whole range",
         "Random rays over the whole sky and the whole range of physical scenes",
         "Whatever nobody thought of: rays without a fate, or not finite.",
         "sweep",
     ),
     Case(
         "sweep-art",
-        "new",
+        "whole range",
         "The same with artistic gravity (0.1–10) and horizon (0.01–1 r_s)",
         "Strong gravity with a small horizon leaves rays that wind without end.",
         "sweep",

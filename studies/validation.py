@@ -1,4 +1,4 @@
-"""The validation that S1 (BlackHoleGPU's report) states for itself, made again with figures: drift, photon sphere, deflection."""
+"""The validation that BlackHoleGPU's report (docs/sources.md) states for itself, made again with figures: drift, photon sphere, deflection."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 DRIFT_STEPS = 1000
-DRIFT_LENGTH = 0.08  # r_s: the step of S1's Ultra preset
+DRIFT_LENGTH = 0.08  # r_s: the step of BlackHoleGPU's preset Ultra
 
 IMPACTS = (2.6, 2.7, 3.0, 4.0, 6.0, 10.0, 30.0, 100.0, 1000.0)
 """Impact parameters in r_s."""
@@ -59,7 +59,7 @@ class Validation:
 
 
 def validate(renderer: Renderer) -> Validation:
-    """S1's checks on our shaders; the drift on the same equation in NumPy's float32, as shaders do not tell what they conserve."""
+    """BlackHoleGPU's checks on our shaders; the drift on the same equation in NumPy's float32, as shaders do not tell what they conserve."""
     spheres = [PhotonSphere(model, _shadow_impact(renderer, _scene(model, 20.0)) / math.sqrt(3.0)) for model in ("kerr", "schwarzschild")]
     return Validation([_drift(name, step) for name, step in _STEPS.items()], spheres, _deflections(renderer))
 

@@ -102,9 +102,17 @@ check_system() {
     fi
     # shellcheck disable=SC2086 # a list of package names
     if [ -n "$missing" ]; then require "$what" $missing; fi
-    if [ "$level" = test ] && [ "$(uname -s)" = Linux ] && ! can_load "$python" libOSMesa.so.8 && ! apt_install libosmesa6; then
+    if [ "$level" = test ]; then check_test_tools; fi
+}
+
+check_test_tools() {  # what some tests need and the rest does not: brought where it may be, and named where not
+    if [ "$(uname -s)" = Linux ] && ! can_load "$python" libOSMesa.so.8 && ! apt_install libosmesa6; then
         say "libOSMesa.so.8 is missing, so the tests marked osmesa will fail. Either bring it or leave them out:" "" \
             "    $(apt_line libosmesa6)" "    make test PYTEST_ARGS='-m \"not osmesa\"'" ""
+    fi
+    if ! command -v glslangValidator >/dev/null 2>&1 && ! apt_install glslang-tools; then
+        say "glslangValidator is missing, so the tests marked glslang will fail. Either bring it or leave them out:" "" \
+            "    $(apt_line glslang-tools)" "    make test PYTEST_ARGS='-m \"not glslang\"'" ""
     fi
 }
 

@@ -44,8 +44,8 @@ class Area:
 def _side(pixels: int, scale: float) -> int:
     """`scale` times as many pixels, or up to four less.
 
-    llvmpipe compiles every shader anew that reads a texture of the first kind whose side is a power of two, and takes up to a second for it. The grid
-    of a refined hit map and the first level of the bloom have a quarter of the picture's side, rounded up, and with every step of the scale another.
+    Sides that are powers of two have shaders compiled anew (docs/llvmpipe.md), for up to a second. The grid of a refined hit map and the first level of the
+    bloom have a quarter of the picture's side, rounded up, and with every step of the scale another.
     """
     side = max(round(pixels * scale), 1)
     quarter = -(-side // 4)

@@ -1,6 +1,6 @@
 """Fair timing: methods interleaved in one run, as ratios to the flat frame of the same scene.
 
-Machines drift and are shared; a ratio taken round by round does not. Timer queries are not used: on software renderers they lie.
+Machines drift and are shared; a ratio taken round by round does not. Timer queries are not used: docs/llvmpipe.md.
 """
 
 from __future__ import annotations

@@ -34,13 +34,13 @@ def page_thorne(r: Array, spin: float, orbit: str, r_in: float) -> Array:
 
 @_law
 def shakura_sunyaev(r: Array, spin: float, orbit: str, r_in: float) -> Array:
-    """(r/r_in)^(-3/4), hottest at the inner edge (S1; the outer part of Shakura & Sunyaev 1973)."""
+    """(r/r_in)^(-3/4), hottest at the inner edge (BlackHoleGPU, docs/sources.md; the outer part of Shakura & Sunyaev 1973)."""
     return (r / r_in) ** -0.75
 
 
 @_law
 def tapered(r: Array, spin: float, orbit: str, r_in: float) -> Array:
-    """r^(-0.8) (1 - sqrt(r_in/r))^0.35, cold at the inner edge (S0)."""
+    """r^(-0.8) (1 - sqrt(r_in/r))^0.35, cold at the inner edge (the orbital-plane renderer of docs/sources.md)."""
     return r**-0.8 * np.maximum(1.0 - np.sqrt(r_in / r), 0.0) ** 0.35
 
 

@@ -112,7 +112,7 @@ def azimuthal_cosine(r: ArrayLike, lam: ArrayLike) -> Array:
 
 
 def g_s0(r: ArrayLike, cosine: ArrayLike) -> Array:
-    """S0's frequency ratio delta sqrt(1 - 1/r), local speed sqrt(M/(r-2M)): exact in Schwarzschild.
+    """An older viewer's (``s0``, docs/sources.md) frequency ratio delta sqrt(1 - 1/r), local speed sqrt(M/(r-2M)): exact in Schwarzschild.
 
     `cosine`: between the emitter's velocity and the light, in the static frame. NaN inside r = 3/2.
     """
@@ -122,7 +122,7 @@ def g_s0(r: ArrayLike, cosine: ArrayLike) -> Array:
 
 
 def g_s1(r: ArrayLike, cosine: ArrayLike) -> Array:
-    """S1's Doppler factor gamma (1 + beta.n), beta = sqrt((M/r)(1 - 3M/r)); no redshift. NaN inside r = 3/2."""
+    """BlackHoleGPU's (docs/sources.md) Doppler factor gamma (1 + beta.n), beta = sqrt((M/r)(1 - 3M/r)); no redshift. NaN inside r = 3/2."""
     r = np.asarray(r, dtype=np.float64)
     beta2 = np.where(r >= 1.5, (0.5 / r) * (1.0 - 1.5 / r), np.nan)
     return (1.0 + np.sqrt(beta2) * cosine) / np.sqrt(1.0 - beta2)

@@ -124,7 +124,8 @@ class PostPass:
         self._size = size
 
     def _level(self, size: tuple[int, int], allocated: tuple[int, int]) -> _Level:
-        texture = self._ctx.texture(allocated, 4, dtype="f2")
+        # Filled: what is never drawn is read all the same, by a linear filter with weight 0, which a NaN that the memory held would survive.
+        texture = self._ctx.texture(allocated, 4, bytes(8 * allocated[0] * allocated[1]), dtype="f2")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
         frame = self._ctx.framebuffer([texture])
@@ -133,8 +134,8 @@ class PostPass:
 
 
 def _padded(size: tuple[int, int]) -> tuple[int, int]:
-    """`size`, one pixel more where a side is a power of two: llvmpipe compiles a shader anew, for 0.2 to 0.4 s, when the first texture with such a side
-    comes, and a picture that changes its size meets them all. The first level, a quarter of the picture, is left to whoever chooses the picture's size."""
+    """`size`, one pixel more where a side is a power of two: a shader is then compiled anew (docs/llvmpipe.md),
+    and a picture that changes its size meets them all. The first level, a quarter of the picture, is left to whoever chooses the picture's size."""
     width, height = ({1: 3}.get(side, side + 1) if side & (side - 1) == 0 else side for side in size)
     return width, height
 

@@ -5,5 +5,3 @@
 float class_depth(int pixel_class) {
     return 0.1 * float(pixel_class) + 0.05;
 }
-
-const float PI = 3.14159265358979;

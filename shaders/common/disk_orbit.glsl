@@ -1,14 +1,14 @@
 // Circular equatorial orbits in Kerr: their rate and their frequency shift g = E_infinity / E_emitter.
 //
 // r is Boyer–Lindquist in r_s, λ = L_z/E of the photon in M. Inside, M = 1 and x = √(r/M); `turn` is the sense of the
-// emitter (disk_spin_sign), and a_t, λ_t are spin and λ measured along it. SPEC §5: Ω = 1/(x³ + a_t),
+// emitter (disk_spin_sign), and a_t, λ_t are spin and λ measured along it. Bardeen, Press & Teukolsky 1972: Ω = 1/(x³ + a_t),
 // u^t = (x³ + a_t)/(x^1.5 √(x³ − 3x + 2a_t)), g = 1/(u^t (1 − Ωλ_t)).
 //
 // How g is split, for the switches "redshift" and "Doppler": g = g₀ · δ with
 //   g₀ = g(λ = 0) = 1/u^t : what a photon without angular momentum suffers: gravity, and the slowing of the emitter's
 //                           clock by its motion (transverse Doppler effect), which only g₀ and not δ holds;
 //   δ  = 1/(1 − Ωλ)       : what depends on the photon's direction: above 1 on the approaching side, below on the other.
-// In the formulas of S0 and S1, g₀ is √(1 − 1/r) and 1.
+// In the two older viewers' formulas (docs/sources.md), g₀ is √(1 − 1/r) and 1.
 
 float turned_spin() {
     return hole_spin * disk_spin_sign;
@@ -43,14 +43,14 @@ float disk_azimuthal_cosine(float r, float lambda) {
     return clamp(disk_spin_sign * 0.5 * lambda * lapse / r, -1.0, 1.0);
 }
 
-// S0: δ = 1/(γ(1 − v·n)) with the local speed v = √(M/(r − 2M)), times √(1 − 1/r).
+// The orbital-plane renderer's: δ = 1/(γ(1 − v·n)) with the local speed v = √(M/(r − 2M)), times √(1 − 1/r).
 vec2 disk_shift_s0(float r, float lambda) {
     float v = min(sqrt(0.5 / max(r - 1.0, 1e-3)), 0.999);
     float delta = sqrt(1.0 - v * v) / (1.0 - v * disk_azimuthal_cosine(r, lambda));
     return vec2(sqrt(max(1.0 - 1.0 / r, 0.0)), delta);
 }
 
-// S1: v = √((M/r)(1 − 3M/r)), D = γ(1 + β·n); no gravitational part.
+// BlackHoleGPU's: v = √((M/r)(1 − 3M/r)), D = γ(1 + β·n); no gravitational part.
 vec2 disk_shift_s1(float r, float lambda) {
     float v2 = max(0.5 / r * (1.0 - 1.5 / r), 0.0);
     return vec2(1.0, (1.0 + sqrt(v2) * disk_azimuthal_cosine(r, lambda)) * inversesqrt(1.0 - v2));

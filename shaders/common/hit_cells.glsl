@@ -18,14 +18,6 @@ const uint CROSSING_NONE = 0u;
 const uint CROSSING_SEEN = 1u; // to be interpolated
 const uint CROSSING_UNSEEN = 2u;  // further out than matters, or none
 
-int cell_fate(uint cell) {
-    return int(cell & 3u);
-}
-
-bool cell_sees_disk(uint cell) {
-    return (cell & 256u) != 0u;
-}
-
 uint cell_crossing(uint cell, int n) {
     return (cell >> (2 + 2 * n)) & 3u;
 }

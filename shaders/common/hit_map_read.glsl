@@ -45,7 +45,7 @@ Hits in_world(Hits hits) {
     return hits;
 }
 
-// The texel of a pixel, clamped to the picture; `size` in pixels. All are the nearest: software renderers fetch that sooner than by texelFetch.
+// The texel of a pixel, clamped to the picture; `size` in pixels. All are the nearest: docs/llvmpipe.md, texels.
 vec2 place_in_map(ivec2 pixel, ivec2 size) {
     return (vec2(pixel) + 0.5) / vec2(size);
 }

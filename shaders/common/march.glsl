@@ -125,7 +125,7 @@ struct March {
 #endif
 };
 
-// llvmpipe (Mesa 22.3) hands on what the body of a loop with one exit computed for a finished ray in later rounds. Where the body is a function of
+// A loop with one exit goes on for finished rays (docs/llvmpipe.md) and hands on what later rounds computed. Where the body is a function of
 // the state alone that is the same, and saves copies of two states a round (docs/performance.md). A trial step or a change of chart is
 // altered by the round itself: those loops get a second exit, which keeps every ray's own values.
 #if defined(STEP_ADAPTS) || defined(RAY_RECHARTS)
@@ -143,7 +143,7 @@ bool march_pauses(March m) {
 #endif
 }
 
-// Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: software renderers run every branch of a loop's body in
+// Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: every branch of a loop's body runs (docs/llvmpipe.md) in
 // every round, so what happens once a ray or once a crossing stands outside it.
 void march_on(Orbit orbit, bool seeks, inout March m) {
 #if MARCH_REPEATS

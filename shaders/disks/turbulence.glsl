@@ -1,7 +1,7 @@
 /*---
 label = "Turbulence"
 summary = "Octaves of sheared noise: filaments that follow the flow."
-source = "S1: product of octaves of simplex noise, octave i at frequency i² · scale, alternate octaves turning opposite ways; S1's has three dimensions, a thin disk two"
+source = "BlackHoleGPU (docs/sources.md): product of octaves of simplex noise, octave i at frequency i² · scale, alternate octaves turning opposite ways; its own has three dimensions, a thin disk two"
 slot = "disk_layer"
 rank = 20
 enabled = true

@@ -1,7 +1,7 @@
 /*---
 label = "Euler"
 summary = "One evaluation a step, first order: the scheme of most shaders on the web."
-source = "S2"
+source = "Weiskopf, Schafhitzel & Ertl 2004; Euler 1768"
 slot = "integrator"
 rank = 2
 order = 1

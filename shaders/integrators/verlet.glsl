@@ -1,7 +1,7 @@
 /*---
 label = "Velocity Verlet"
 summary = "Half a kick, a drift, half a kick: second order, and errors of conserved quantities that do not grow. Forces must depend on places alone."
-source = "S1; Verlet 1967"
+source = "BlackHoleGPU (docs/sources.md); Verlet 1967"
 slot = "integrator"
 rank = 3
 order = 2

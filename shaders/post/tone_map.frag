@@ -5,7 +5,7 @@
 #include "common/tone_table.glsl"
 #include "common/tone.glsl"
 
-uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not, which costs less than texelFetch on llvmpipe
+uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not: docs/llvmpipe.md, texels
 #if POST_BLOOM
 uniform sampler2D glow;
 #endif

@@ -16,7 +16,7 @@ void main() {
 #if !TONE_MIXES
     shown = srgb_code(shown);
 #endif
-    // Sixteen bits in two channels of eight: software renderers fetch those in half the time of a float.
+    // Sixteen bits in two channels of eight: fetched in half the time of a float (docs/llvmpipe.md).
     float high = floor(shown * 255.0);
     entry = vec4(high / 255.0, shown * 255.0 - high, 0.0, 1.0);
 }

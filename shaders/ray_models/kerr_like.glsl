@@ -1,7 +1,7 @@
 /*---
 label = "Kerr-like"
 summary = "Schwarzschild orbits whose propagation basis is twisted about the spin axis by the Lense–Thirring rate: a picture of dragging, not Kerr."
-source = "S0"
+source = "an orbital-plane renderer (docs/sources.md)"
 slot = "ray_model"
 rank = 3
 kind = "differential"

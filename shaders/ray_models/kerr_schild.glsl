@@ -12,7 +12,7 @@ spins = true
 second_order = false  # not separated: the momenta's rates depend on the momenta
 exact = true
 ---*/
-// H = ½(p² − 1 − f κ²), κ = E + l·p, with the f and l of SPEC's ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
+// H = ½(p² − 1 − f κ²), κ = E + l·p, with the f and l of ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
 // time-reversed space-time, Kerr with −a, that moves along the look direction.
 // The unknowns are not (x, p) but n = x/R, w = 1/R, L = x × p and p_n = n·p, and the parameter runs as dλ/R²: every factor R cancels,
 // infinity is w = 0 and is reached, and b keeps all its digits however far the camera is. With ρ = w r, q = a w: r² + a² = (ρ² + q²)/w².

@@ -1,7 +1,7 @@
 /*---
 label = "Post-Newtonian"
 summary = "Wrong, kept as published: x'' = −(M/r³) x (1 + 3h²/r²) bends light half too much far away (6M/b for 4M/b), and the observer's frame is skipped."
-source = "S4"
+source = "a Python viewer after rossning92/Blackhole (docs/sources.md)"
 slot = "ray_model"
 rank = 8
 kind = "differential"

@@ -1,7 +1,7 @@
 /*---
 label = "Post-Newtonian with drag"
 summary = "Wrong, kept as published: the post-Newtonian force and −(6M/r³) v × J beside it, in place of Kerr; the horizon has Kerr's radius."
-source = "S4"
+source = "a Python viewer after rossning92/Blackhole (docs/sources.md)"
 slot = "ray_model"
 rank = 9
 kind = "differential"

@@ -1,7 +1,7 @@
 /*---
 label = "Schwarzschild"
 summary = "Exact null orbits of a hole without spin, marched in Cartesian space: x'' = −(3/2) G h² x/r⁵."
-source = "Binet's equation u'' + u = (3/2) u² as a central force; S1"
+source = "Binet's equation u'' + u = (3/2) u² as a central force; BlackHoleGPU (docs/sources.md)"
 slot = "ray_model"
 rank = 2
 kind = "differential"

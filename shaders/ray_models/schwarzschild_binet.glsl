@@ -1,7 +1,7 @@
 /*---
 label = "Schwarzschild, Binet"
 summary = "Exact null orbits of a hole without spin, one unknown in the orbit's plane: u'' + u = (3/2) u². Radial rays are no special case."
-source = "S0; Binet's equation"
+source = "an orbital-plane renderer (docs/sources.md); Binet's equation"
 slot = "ray_model"
 rank = 5
 kind = "differential"

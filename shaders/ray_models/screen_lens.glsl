@@ -1,7 +1,7 @@
 /*---
 label = "Screen lens"
 summary = "The flat picture displaced about the hole's place on the screen, and a black disc on it: the cheapest, a thin lens for what lies far behind the hole, wrong for the disk."
-source = "S3"
+source = "a screen-space lens effect (docs/sources.md)"
 slot = "ray_model"
 rank = 11
 kind = "closed"

@@ -46,7 +46,7 @@ make = "blackhole_gl.render.star_cells:table"
 // A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
 // light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
 
-uniform sampler2D star_cells;  // blackhole_gl/render/star_cells.py; nearest, as texelFetch takes half as long again on llvmpipe
+uniform sampler2D star_cells;  // blackhole_gl/render/star_cells.py; nearest: docs/llvmpipe.md, texels
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
 
 const vec3 GALAXY_CENTRE = vec3(-0.947063, 0.290589, 0.136495);

@@ -1,7 +1,7 @@
 /*---
 label = "Curvature"
 summary = "The model's plain step, shrunk where orbits bend hard, near the photon sphere and near the disk's plane."
-source = "S0"
+source = "an orbital-plane renderer (docs/sources.md)"
 slot = "step_control"
 rank = 4
 shortest = 0.4  # of the plain step, on a ray's whole way

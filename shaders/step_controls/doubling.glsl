@@ -1,7 +1,7 @@
 /*---
 label = "Step doubling"
 summary = "One step of h against two of h/2: above the tolerance h is halved and the step tried again, far below it h is doubled. Any integrator."
-source = "S2"
+source = "Weiskopf, Schafhitzel & Ertl 2004"
 slot = "step_control"
 rank = 5
 adapts = true

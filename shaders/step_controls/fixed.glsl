@@ -1,7 +1,7 @@
 /*---
 label = "Fixed"
 summary = "Every step has the same length."
-source = "S1, S2"
+source = "BlackHoleGPU (docs/sources.md); Weiskopf, Schafhitzel & Ertl 2004"
 slot = "step_control"
 rank = 2
 fits = ["cartesian"]

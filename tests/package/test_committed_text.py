@@ -1,4 +1,4 @@
-"""What is committed works anywhere: no path of somebody's machine, no address of a package index."""
+"""What is committed works anywhere, for anybody: no path of somebody's machine, no address of a package index, no source that a reader cannot find."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "presets", "shaders", "tests", "tools")
+FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "presets", "shaders", "studies", "tests", "tools")
 BINARY = {".png", ".npy", ".npz", ".exr", ".jpg", ".pyc", ".mp4"}
 
 # Each is written in two pieces, so that this file does not find itself.
@@ -15,6 +15,9 @@ MACHINE_PATH = re.compile("|".join(["/" + r"(?:work|home|root|Users|opt)/[A-Za-z
 PACKAGE_INDEX = re.compile(
     "|".join(["pypi" + r"\.org", "python" + r"hosted\.org", "deb" + r"\.debian", "registry" + r"\.npmjs", "index" + "-url", "find" + "-links", "--hash" + "="])
 )
+# What a reader cannot look up. S0 to S4 are short names of works that docs/sources.md names in full.
+NOT_A_SOURCE = re.compile("|".join([r"\bSPEC" + r"\b", r"\b[Ii]ssue" + r" [0-9]", r"the specif" + r"ication\b"]))
+SHORT_NAME = re.compile(r"\bS[0-4]" + r"\b")
 PIN = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*==[0-9][0-9a-z.]*")
 
 
@@ -45,6 +48,15 @@ def test_no_machine_paths() -> None:
 
 def test_no_package_index() -> None:
     assert not lines_with(PACKAGE_INDEX)
+
+
+def test_sources_are_such_as_a_reader_can_find() -> None:
+    assert not lines_with(NOT_A_SOURCE)
+
+
+def test_works_are_named_in_full_outside_the_list_of_sources() -> None:
+    named = [line for line in lines_with(SHORT_NAME) if not line.startswith(("docs/sources.md:", "tests/package/test_committed_text.py:"))]
+    assert not named
 
 
 def test_pins_are_exact_bare_and_sorted() -> None:

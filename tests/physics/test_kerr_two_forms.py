@@ -9,7 +9,7 @@ from blackhole_gl import reference
 from blackhole_gl.physics import observer, relativity
 
 AWAY = 1e-3  # |ψ/ψ_c − 1| at least
-BOUND = 1e-10  # rad; issue 3, acceptance 2
+BOUND = 1e-10  # rad: a thousandth of what float32 leaves, so that either form can be the shaders' truth
 TOLERANCE = 3e-13
 
 # Near the critical curve an error grows as its inverse distance, as 1/(ε √(1 − a²)) for spins near 1.

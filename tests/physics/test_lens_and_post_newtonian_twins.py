@@ -95,7 +95,7 @@ def shadow_edge(model: str, side: float, **given) -> float:
 
 
 def test_post_newtonian_shadow_is_a_third_too_large():
-    """SPEC §9.2. The largest b without a turning point: a double root of 1/b² − u² + u/b² + u³."""
+    """The largest b without a turning point: a double root of 1/b² − u² + u/b² + u³."""
     u = optimize.brentq(lambda x: (2.0 * x - 3.0 * x * x) * (1.0 + x) - (x * x - x**3), 0.3, 0.9)
     critical = math.sqrt((1.0 + u) / (u * u - u**3))
     edge = shadow_edge("post_newtonian", 1.0)

@@ -19,7 +19,7 @@ from blackhole_gl.reference import schemes
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 
-WITHIN = 0.3  # issue 3: measured order against the declared one
+WITHIN = 0.3  # measured order against the declared one: the nearest whole number is in no doubt
 FLOOR = 1.5e-6  # rad: what rounding may leave at the finest steps used here
 
 K = 36.0  # b = 6 M

@@ -48,7 +48,7 @@ def shifts(ctx, tmp_path):
 @pytest.mark.parametrize("spin", [0.0, 0.5, 0.9, 0.998, 0.9999, -0.998])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_exact_g(shifts, spin: float, sense: float) -> None:
-    """2e-5 is issue 2's demand on g; float32 input alone gives up to 1e-6 near the ISCO of a fast hole."""
+    """2e-5 is the bound on g that README.md states; float32 input alone gives up to 1e-6 near the ISCO of a fast hole."""
     rng = np.random.default_rng(5)
     a = spin * sense
     count = SIZE[0] * SIZE[1]
@@ -64,7 +64,7 @@ def test_exact_g(shifts, spin: float, sense: float) -> None:
 
 
 def test_exact_g_is_s0_in_schwarzschild(shifts) -> None:
-    """SPEC §5: with a = 0 the exact g is δ √(1 − 1/r) with the local speed √(M/(r − 2M)). Both sides are float32: 2e-6."""
+    """With a = 0 the exact g is δ √(1 − 1/r) with the local speed √(M/(r − 2M)). Both sides are float32: 2e-6."""
     radius = np.geomspace(3.0, 50.0, SIZE[0] * SIZE[1]).astype(np.float32)
     lam = (2.0 * radius * np.linspace(-0.9, 0.9, radius.size)).astype(np.float32)
     exact = shifts(0.0, 1.0, radius, lam, "disk_shift_exact(c.x, c.y)").prod(-1)

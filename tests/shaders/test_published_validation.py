@@ -1,4 +1,4 @@
-"""What S1's report claims for itself, held by our shaders: drift of conserved quantities, photon sphere, deflection. `-rP` shows the figures."""
+"""What BlackHoleGPU's report (docs/sources.md) claims for itself, held by our shaders: drift of conserved quantities, photon sphere, deflection. `-rP` shows the figures."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def scene_of(model: str, **changes):
 
 
 def test_drift_over_a_thousand_steps(renderer: Renderer) -> None:
-    """S1 claims less than 1 %; Euler's scheme does not hold that, and does not have to."""
+    """The report claims less than 1 %; Euler's scheme does not hold that, and does not have to."""
     drifts = {drift.integrator: drift for drift in validate(renderer).drifts}
     for name in ("verlet", "rk4"):
         assert max(drifts[name].energy, drifts[name].angular_momentum) < 1e-2
@@ -33,7 +33,7 @@ def test_drift_over_a_thousand_steps(renderer: Renderer) -> None:
 
 @pytest.mark.parametrize("model", EXACT)
 def test_photon_sphere(renderer: Renderer, model: str) -> None:
-    """S1 claims 0.1 %. Light at the shadow's edge circles at r = b_c/√3, 3/2 exactly."""
+    """The report claims 0.1 %. Light at the shadow's edge circles at r = b_c/√3, 3/2 exactly."""
     scene = scene_of(model, camera__distance=20.0)
     impact = 20.0 * np.sin(shadow_edge(renderer, scene, SCREEN_ANGLES)) / math.sqrt(1.0 - 1.0 / 20.0)
     off = np.abs(impact / math.sqrt(3.0) / 1.5 - 1.0).max()

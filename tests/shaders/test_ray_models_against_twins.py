@@ -86,7 +86,7 @@ def test_parallel_rays(renderer: Renderer, model: str) -> None:
 
 @pytest.mark.parametrize("model", EXACT + CLOSED + WRONG)
 def test_rays_that_break_other_viewers(renderer: Renderer, model: str) -> None:
-    """Exactly radial, 0.006° from it, and near-tangential outward rays (SPEC §9.3)."""
+    """Exactly radial, 0.006° from it, and near-tangential outward rays."""
     psi = np.array([0.0, 1e-4, 1e-7, math.pi, math.pi - 1e-4, math.pi - 1e-7, 0.5 * math.pi, 0.5 * math.pi - 1e-4, 0.5 * math.pi + 1e-4])
     rays = np.stack([np.tile(psi, 4), np.repeat([0.0, 0.5 * math.pi, 2.0, math.pi], len(psi))], axis=-1)
     compared(renderer, scene_of(model, 20.0, 80.0), rays)
@@ -95,7 +95,7 @@ def test_rays_that_break_other_viewers(renderer: Renderer, model: str) -> None:
 @pytest.mark.parametrize("control", ["mino", "curvature"])
 @pytest.mark.parametrize("model", ["kerr", *EXACT])
 def test_finest_settings(renderer: Renderer, model: str, control: str) -> None:
-    """Issue 3, acceptance 3, at spin 0 and 0.9: direction median 2e-6, 99 % 1e-5; crossing median 3e-7, 99 % 1e-5."""
+    """At spin 0 and 0.9: direction median 2e-6, 99 % 1e-5; crossing median 3e-7, 99 % 1e-5."""
     for spin in (0.0, 0.9):
         scene = scene_of(model, 20.0, 80.0, hole__spin=spin, rays__step_control=control)
         figures = compared(renderer, scene, random_rays(scene, 1000, seed=3))

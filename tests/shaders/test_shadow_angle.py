@@ -12,7 +12,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge
 
-# Issue 2, acceptance 2. Float32 directions alone are good to 1e-7; the rest is the march's rounding on the critical curve.
+# README.md states this bound. Float32 directions alone are good to 1e-7; the rest is the march's rounding on the critical curve.
 RELATIVE = 1e-5
 
 

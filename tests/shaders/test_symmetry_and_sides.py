@@ -34,7 +34,7 @@ def test_the_approaching_side_is_the_bright_side(renderer: Renderer, spin: float
     """The camera is on the +x side and its right is +y, from both sides of the plane. Matter that turns counter-clockwise comes up on the left."""
     left, right = halves(renderer, ["kerr"], {"hole.spin": spin, "camera.inclination_deg": inclination})
     approaching, receding = (left, right) if spin >= 0.0 else (right, left)
-    assert approaching > 2.0 * receding  # S1 states a factor of 2 to 3 for its own formula; g⁴ makes it more
+    assert approaching > 2.0 * receding  # BlackHoleGPU's report states a factor of 2 to 3 for its own formula; g⁴ makes it more
 
 
 def test_a_retrograde_disk_is_bright_on_the_other_side(renderer: Renderer) -> None:

@@ -10,7 +10,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import random_rays
 
-# Issue 2, acceptance 3, for rays at least 1e-2 from the critical curve.
+# README.md states these bounds, for rays at least 1e-2 from the critical curve.
 DIRECTION_MEDIAN, DIRECTION_99 = 5e-6, 5e-5  # rad
 CROSSING_99, G_99 = 2e-5, 2e-5  # relative
 
@@ -71,7 +71,7 @@ def test_parallel_rays_of_a_far_observer_against_the_twin(renderer: Renderer, sp
 
 @pytest.mark.parametrize("model", ["schwarzschild", "kerr"])
 def test_rays_that_break_other_viewers(renderer: Renderer, model: str) -> None:
-    """Exactly radial, 0.006° from it, and near-tangential outward rays (SPEC §9.3)."""
+    """Exactly radial, 0.006° from it, and near-tangential outward rays."""
     psi = np.array([0.0, 1e-4, 1e-7, np.pi, np.pi - 1e-4, np.pi - 1e-7, 0.5 * np.pi, 0.5 * np.pi - 1e-4, 0.5 * np.pi + 1e-4])
     rays = np.stack([np.tile(psi, 4), np.repeat([0.0, 0.5 * np.pi, 2.0, np.pi], len(psi))], axis=-1)
     scene = presets.load(["schwarzschild", "reference"], {"rays.model": model, "camera.distance": 20.0})
@@ -83,7 +83,7 @@ def test_rays_that_break_other_viewers(renderer: Renderer, model: str) -> None:
 
 @pytest.mark.parametrize("distance, impact", [(20.0, 0.5), (20.0, 1.5), (20.0, 2.4)])
 def test_coarse_fixed_steps_do_not_tunnel_through_the_horizon(renderer: Renderer, distance: float, impact: float) -> None:
-    """SPEC §9.4: steps of 1 to 2 r_s lose these rays in other viewers. Ours are captured with the coarsest preset shipped."""
+    """Steps of 1 to 2 r_s lose these rays in other viewers. Ours are captured with the coarsest preset shipped."""
     psi = np.arcsin(impact * np.sqrt(1.0 - 1.0 / distance) / distance)
     rays = np.stack([np.full(16, psi), 2.0 * np.pi * np.arange(16) / 16], axis=-1)
     scene = presets.load(["schwarzschild", "low"], {"camera.distance": distance})

@@ -186,9 +186,9 @@ def test_the_contract_with_the_plan() -> None:
 def test_validation_of_s1_holds(renderer: Renderer) -> None:
     found = validation.validate(renderer)
     drift = {item.integrator: item for item in found.drifts}
-    assert drift["verlet"].energy < 0.01 and drift["rk4"].angular_momentum < 0.01  # S1's 1 %
+    assert drift["verlet"].energy < 0.01 and drift["rk4"].angular_momentum < 0.01  # the report's 1 %
     assert drift["euler"].energy > 0.01
-    assert all(abs(item.radius / 1.5 - 1.0) < 1e-5 for item in found.photon_spheres)  # S1's 0.1 %, and what float32 can do
+    assert all(abs(item.radius / 1.5 - 1.0) < 1e-5 for item in found.photon_spheres)  # the report's 0.1 %, and what float32 can do
     for item in found.deflections:
         assert item.by_model["kerr"] == pytest.approx(item.exact, abs=1e-6 / (item.b / relativity.CRITICAL_IMPACT - 1.0) + 1e-6)
     assert found.deflections[-1].by_model["post_newtonian"] / found.deflections[-1].weak == pytest.approx(1.5, abs=0.01)

@@ -46,7 +46,7 @@ def test_rays_start_null_with_the_twins_constants(spin, distance, inclination, k
     np.testing.assert_allclose(energy, momenta.energy, rtol=1e-12)
     lam = -n_phi * place.sin_theta
     np.testing.assert_allclose(lam, -momenta.l_over_sin * place.sin_theta / momenta.energy, rtol=1e-11, atol=1e-11)
-    # SPEC §3: w'² = 1 + c₂w² + ⅔c₃w³ + ½c₄w⁴ with K = η + λ² = n'² − a² n_z²
+    # w'² = 1 + c₂w² + ⅔c₃w³ + ½c₄w⁴ with K = η + λ² = n'² − a² n_z²
     k = n_theta**2 + n_phi**2 - (spin * place.cos_theta) ** 2
     eta, w = k - lam**2, seen.w
     c2, c3, c4 = spin**2 - lam**2 - eta, 3.0 * (eta + (lam - spin) ** 2), -2.0 * spin**2 * eta

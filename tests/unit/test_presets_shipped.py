@@ -9,14 +9,14 @@ from blackhole_gl.scene import Scene, fields, presets
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 
-# SPEC §8, physics presets of S1; the camera's distance is given for the first only.
+# BlackHoleGPU's physics presets (docs/sources.md); the camera's distance is given for the first only.
 S1_PHYSICS = {
     "gargantua_s1": {"hole.gravity_strength": 2.5, "disk.outer_radius": 5.0, "disk.thickness": 0.2, "camera.distance": 8.0},
     "extreme_gravity": {"hole.gravity_strength": 8.0, "disk.outer_radius": 15.0, "disk.thickness": 0.5, "hole.horizon_size": 0.5},
     "thin_disk": {"hole.gravity_strength": 3.0, "disk.outer_radius": 10.0, "disk.thickness": 0.05},
 }
 
-# SPEC §8, visual presets of S1.
+# BlackHoleGPU's visual presets.
 S1_LOOK_KEYS = (
     "disk.thickness", "disk.density_gain", "disk.noise_scale", "disk.noise_speed", "disk.emission_strength",
     "post.bloom_threshold", "post.bloom_intensity", "post.bloom_spread", "post.gamma",
@@ -27,7 +27,7 @@ S1_LOOKS = {
     "minimal_bloom": (0.52, 12000, 0.88, 0.85, 0.22, 0.55, 0.30, 0.85, 0.95),
 }
 
-# SPEC §4, quality presets of S1 (steps, length, adaptive or not); the angular steps and `reference` are ours.
+# BlackHoleGPU's quality presets (steps, length, adaptive or not); the angular steps and `reference` are ours.
 QUALITIES = {
     "low": (128, 0.15, "fixed", 0.4),
     "medium": (192, 0.12, "radius", 0.2),

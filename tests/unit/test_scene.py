@@ -34,7 +34,7 @@ def test_every_field_explains_itself():
 
 
 def test_names_that_scripts_rely_on():
-    """Issue 2 names these keys."""
+    """People's presets and command lines name these keys: none may go."""
     promised = {
         "hole.spin", "camera.distance", "camera.inclination_deg", "camera.azimuth_deg", "camera.fov_deg", "camera.observer",
         "rays.model", "disk.enabled", "disk.outer_radius",

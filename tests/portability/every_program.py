@@ -1,0 +1,127 @@
+"""The text of every program that the shipped presets come to, composed as the renderer composes it; no GL here."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from blackhole_gl.plan import Plan, plan
+from blackhole_gl.render.diagnostics import most_accurate, prepared
+from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.render.post import TONE_TABLE
+from blackhole_gl.render.programs import Programs
+from blackhole_gl.resources import presets_dir
+from blackhole_gl.scene import Scene, catalogue, fields, presets
+
+Wanted = tuple[str, str, Plan, Mapping[str, int]]
+"""A program's path, what it is for, the plan that shapes it, the switches beyond the scene's own."""
+
+SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
+
+# What draws a picture, in the order of shaders/README.md.
+TRACED = ("trace.frag", "refine_nodes.frag", "refine_cells.frag", "refine_classes.frag", "probe.frag")
+POST = ("post/bloom_down.frag", "post/bloom_up.frag", "post/tone_table.frag", "post/tone_map.frag")
+
+
+class NoGL:
+    """Stands for a program or its triangle: names nothing, holds nothing."""
+
+    @property
+    def program(self) -> NoGL:
+        return self
+
+    def __contains__(self, name: str) -> bool:
+        return False
+
+    def release(self) -> None:
+        pass
+
+
+class Recorder:
+    """Stands for a context: keeps the texts that it is given to compile.
+
+    Attributes:
+        texts: (vertex text, fragment text) → what was asked for when it came first.
+        asked: what is being asked for.
+    """
+
+    def __init__(self) -> None:
+        self.texts: dict[tuple[str, str], str] = {}
+        self.asked = ""
+
+    def program(self, *, vertex_shader: str, fragment_shader: str) -> NoGL:
+        self.texts.setdefault((vertex_shader, fragment_shader), self.asked)
+        return NoGL()
+
+    def vertex_array(self, program: NoGL, content: list) -> NoGL:
+        return NoGL()
+
+
+def collect() -> Mapping[tuple[str, str], str]:
+    """(vertex text, fragment text) → path and scene of every program."""
+    recorder = Recorder()
+    programs = Programs(recorder)
+    for path, name, made, switches in itertools.chain(_of_scenes(), _of_views(), _of_methods()):
+        recorder.asked = f"{path} for {name}"
+        programs.get(path, FrameInputs.whole(made, 0.0, (16, 16)), switches)
+    return recorder.texts
+
+
+def _of_scenes() -> Iterator[Wanted]:
+    for name, scene in _scenes():
+        made = plan(scene)
+        yield from ((path, name, made, {}) for path in TRACED)
+        yield from ((path, name, made, TONE_TABLE) for path in POST)
+        yield from ((path, name, made, {"HIT_MAP_REFINED": refined}) for path, refined in _readers(made))
+
+
+def _readers(made: Plan) -> Iterator[tuple[str, int]]:
+    """(path, HIT_MAP_REFINED) of what reads the hit map: sharp, refined, or where a refined one is flat."""
+    yield "shade_classes.frag", 0
+    yield "refine_resolve.frag", 1
+    if made.orders:
+        yield from (("shade_disk.frag", refined) for refined in (0, 1))
+    if made.scene.sky.enabled:
+        yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
+
+
+def _scenes() -> Iterator[tuple[str, Scene]]:
+    """(name, scene): each shipped preset, looks and qualities over one that shows them, and each switch and choice at each of its values."""
+    for info in SHIPPED:
+        yield info.name, presets.load([info.name] if info.group in ("physics", "scene") else ["kerr_06", info.name])
+    kerr = presets.load(["kerr"])
+    for key, item in fields().items():
+        options = {"choice": item.options, "switch": (False, True)}.get(item.kind, ())
+        if not key.startswith(("rays.model", "rays.integrator", "rays.step_control", "post.view")):
+            yield from ((f"{key} = {value}", kerr.with_values({key: value})) for value in options)
+
+
+def _of_views() -> Iterator[Wanted]:
+    for view, model in itertools.product(fields()["post.view"].options, ("kerr", "schwarzschild_table")):
+        if view != "picture":
+            made = prepared(plan(presets.load(["kerr"], {"post.view": view, "rays.model": model})))
+            yield "trace.frag", f"the view {view} of {model}", made, {}
+            yield f"views/{view}.frag", f"the view {view} of {model}", made, {}
+            yield "trace.frag", f"the reference of {model}", most_accurate(made), {}
+
+
+def _of_methods() -> Iterator[Wanted]:
+    kerr = presets.load(["kerr"])
+    for name, values in _methods():
+        for orders, view, listed in ((0, "picture", 0), (1, "conservation", 0), (3, "picture", 1)):
+            made = replace(plan(kerr.with_values({**values, "post.view": view})), orders=orders)
+            yield "trace.frag", f"{name}, {orders} orders", made, {"RAYS_LISTED": listed}
+
+
+def _methods() -> Iterator[tuple[str, Mapping[str, object]]]:
+    """(name, scene values) of every ray model, and of a marched one with every integrator and step control that fit."""
+    for key, model in catalogue.plug_ins("ray_model").items():
+        if model.traits.kind == "closed":
+            yield key, {"rays.model": key}
+            switches = [(name, value) for name, item in model.parameters.items() if item.kind == "switch" for value in (False, True)]
+            yield from ((f"{key}, {name} {value}", {"rays.model": key, name: value}) for name, value in switches)
+            continue
+        for integrator, control in itertools.product(catalogue.keys("integrator"), catalogue.keys("step_control")):
+            if not catalogue.reasons_against(key, integrator, control):
+                yield f"{key}, {integrator}, {control}", {"rays.model": key, "rays.integrator": integrator, "rays.step_control": control}
