@@ -30,7 +30,6 @@ class RayModelTraits:
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
         charted: whether the chart and the stability page measure it; not for what is not about a hole.
-        twin: its model in ``blackhole_gl/reference/`` where that has another name.
     """
 
     kind: Literal["closed", "differential"]
@@ -42,7 +41,6 @@ class RayModelTraits:
     second_order: bool = False
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
     charted: bool = True
-    twin: str | None = None
 
     def __post_init__(self) -> None:
         for name in ("marches_in", "step_control"):
