@@ -13,7 +13,7 @@ from functools import cached_property, lru_cache
 
 from ..physics.space_time import ray_model
 from ..resources import assets_dir
-from ..scene import Rays, Scene, catalogue
+from ..scene import Rays, Scene, catalogue, met
 
 AUTO = "auto"
 
@@ -187,19 +187,19 @@ def is_open(scene: Scene) -> bool:
 
 def predictions(scene: Scene) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states."""
-    for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0):
+    for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
         yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost)
 
 
 @lru_cache(maxsize=64)
-def _candidates(near: tuple[str, ...], rays: Rays, spins: bool) -> tuple[tuple[Method, tuple[Measured, ...]], ...]:
-    """Methods that fit `rays` round a hole that `spins` or not, each with its rows in the measured scenes `near`, in their order.
+def _candidates(near: tuple[str, ...], rays: Rays, spins: bool, has_things: bool) -> tuple[tuple[Method, tuple[Measured, ...]], ...]:
+    """Methods that fit `rays` round a hole that `spins` or not, in a scene that `has_things` or not, each with its rows in the measured scenes `near`, in their order.
 
     Kept, as every frame of a moving camera is a scene to choose for.
     """
     by_method: dict[Method, list[Measured]] = {}
     for row in _measured_in(near):
-        if not row.refined and _fits(rays, spins, row):
+        if not row.refined and _fits(rays, spins, has_things, row):
             by_method.setdefault(row.method, []).append(row)
     return tuple((method, tuple(rows)) for method, rows in by_method.items() if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows))
 
@@ -340,9 +340,11 @@ def _stated(scene: Scene, best: Prediction) -> Scene:
     return _plainly(scene.with_values(values))
 
 
-def _fits(rays: Rays, spins: bool, row: Measured) -> bool:
+def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
     model = catalogue.plug_ins("ray_model")[row.model]
     if rays.model == AUTO and (spins and not model.traits.spins or model.traits.space_time == "flat"):
+        return False
+    if has_things and not model.traits.meets_things:
         return False
     angular = model.traits.marches_in == "mino"
     step, stated_step = (row.step_angle, rays.step_angle) if angular else (row.step_length, rays.step_length)

@@ -19,6 +19,9 @@ SPARE_TURNS = 3.0
 # Models whose closed form is a first-order one state a larger march_bound in their header.
 MARCH_BOUND = 6.0
 
+# What is marched, or tells its paths, in each space-time.
+_MARCHED = {"flat": "flat", "schwarzschild": "schwarzschild", "kerr": "kerr"}
+
 # Share of the tolerance that interpolation may take; the march's own error at most pixels is far below its share.
 _REFINE_SHARE = 0.8
 
@@ -33,8 +36,10 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     Raises:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
+    scene, why_other = _meeting_things(scene)
     chosen = choice.choose(scene)
     scene, reasons = chosen.scene, list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",))
+    reasons += why_other
     model, where = ray_model(scene), space_time(scene)
     orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
     reasons += _why_orders(scene, orders, keep_crossings)
@@ -84,6 +89,16 @@ def forget_measurements() -> None:
     """To be called when the chart's table has changed: what was planned by the old one is planned anew."""
     choice.forget_choices()
     plan.cache_clear()
+
+
+def _meeting_things(scene: Scene) -> tuple[Scene, list[str]]:
+    """`scene` with a ray model whose rays can meet what there is to meet, and why another than it states."""
+    model = ray_model(scene)
+    if met.is_empty(scene) or model.traits.meets_things:
+        return scene, []
+    other = _MARCHED[model.traits.space_time]
+    why = f"{other} instead of {model.key}, which goes from pixel to disk at once and cannot meet things on the way"
+    return scene.with_values({"rays.model": other}), [why]
 
 
 def _fitting(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:

@@ -40,7 +40,8 @@ class HitArrays:
         momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
             |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
         met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.
-        met_place: float32 (…, meetings, 3): where, in r_s in the world; zero without. Both None in a scene where there is nothing to meet.
+        met_place: float32 (…, meetings, 3): where, in r_s in the world; zero without.
+        met_rates: float32 (…, meetings, 4): the ray's momentum there, n_rate and w_rate of shaders/common/hits.glsl. All None where there is nothing to meet.
     """
 
     fate: Array
@@ -51,6 +52,7 @@ class HitArrays:
     momentum: Array | None = None
     met: Array | None = None
     met_place: Array | None = None
+    met_rates: Array | None = None
 
     def each(self, function: Callable[[Array], Array]) -> HitArrays:
         """The hits with `function` applied to every array there is."""
@@ -77,7 +79,8 @@ def unpacked(texels: Sequence[Array], orders: int, meetings: int) -> HitArrays:
     places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)
     packed = places[..., 3].astype(np.int32)
     met = np.where(packed[..., None] > 0, np.stack([(packed & 31) - 1, packed >> 8, (packed >> 5) & 3], axis=-1), -1)
-    return replace(found, met=met, met_place=places[..., :3])
+    rates = np.stack(texels[plane + 1 : plane + 2 * meetings : 2], axis=-2)
+    return replace(found, met=met, met_place=places[..., :3], met_rates=rates)
 
 
 def momenta(texels: Sequence[Array], crossing: Array) -> Array:

@@ -27,6 +27,7 @@ class RayModelTraits:
         exact: whether it solves its space-time; else it is art, or an approximation.
         marches_in: of a differential model; None for closed ones.
         step_control: the one that suits it best; None for closed models.
+        tells_paths: whether a closed model also says where in space its rays run, so that they can meet things; marched ones do.
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
         charted: whether the chart and the stability page measure it; not for what is not about a hole.
@@ -38,9 +39,15 @@ class RayModelTraits:
     exact: bool
     marches_in: Time | None = None
     step_control: str | None = None
+    tells_paths: bool = False
     second_order: bool = False
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
     charted: bool = True
+
+    @property
+    def meets_things(self) -> bool:
+        """Whether its rays can meet more than the disk's plane."""
+        return self.kind == "differential" or self.tells_paths
 
     def __post_init__(self) -> None:
         for name in ("marches_in", "step_control"):

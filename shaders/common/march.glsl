@@ -69,7 +69,8 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 void add_meeting_found(Orbit orbit, State a, float h, Curve curve, Found found, inout Hits hits) {
     float t = meeting_root(curve, found);
     State there = march_step(orbit, a, h * t);
-    vec3 velocity, ignored, onward = curve_point(curve, t, velocity);
+    vec3 velocity, ignored;
+    curve_point(curve, t, velocity);
     Curve here = Curve(ray_path(orbit, there), ray_path(orbit, there), 0.0);
     vec3 x = curve_point(here, 0.0, ignored);
     float off = distance_to(found.kind, found.index, x);
@@ -82,7 +83,7 @@ void add_meeting_found(Orbit orbit, State a, float h, Curve curve, Found found, 
     there = state_drift(there, slip);
 #endif
     vec4 place = path_place(ray_path(orbit, there));
-    bool enters = distance_to(found.kind, found.index, onward - 2e-3 * normalize(velocity)) >= 0.0;
+    bool enters = distance_to(found.kind, found.index, curve_point(curve, found.before, ignored)) >= 0.0;
     add_meeting(hits, found.kind, found.index, enters, place.xyz / place.w, ray_momentum(orbit, there), is_opaque(found.kind));
 }
 

@@ -65,11 +65,12 @@ const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far a
 // Whether anything may be met on the step, looked at by its ends: not on a way that leads out from beyond everything.
 bool may_meet(Path a, Path b) {
     if (a.place.w <= 0.0) return true;
-    vec3 from = a.place.xyz / a.place.w;
-    bool outwards = b.place.w <= 0.0 || dot(b.place.xyz, b.place.xyz) > dot(from, from) * b.place.w * b.place.w;
+    vec4 start = path_place(a), end = path_place(b);
+    vec3 from = start.xyz / start.w;
+    bool outwards = end.w <= 0.0 || dot(end.xyz, end.xyz) > dot(from, from) * end.w * end.w;
     if (outwards && dot(from, from) > meeting_reach * meeting_reach) return false;
-    if (b.place.w <= 0.0) return true;
-    return clearance(from) <= 1.5 * distance(from, b.place.xyz / b.place.w) + OVERSTEP;
+    if (end.w <= 0.0) return true;
+    return clearance(from) <= 1.5 * distance(from, end.xyz / end.w) + OVERSTEP;
 }
 
 // The first meeting on the curve between the parts `from` and `to`.
@@ -77,16 +78,24 @@ Found next_meeting(Curve curve, float from, float to) {
     Found found = Found(MEETING_NONE, 0, from, from);
     float t = curve.a.place.w <= 0.0 ? max(from, FAR_END) : from;
     float last = curve.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
+    float most = 1.0;
     vec3 velocity, x = curve_point(curve, t, velocity);
     for (int probe = 0; probe < MOST_PROBES; ++probe) {
         if (t >= last) break;
+        float clear = clearance(x);
         bool gone = dot(x, velocity) > 0.0 && dot(x, x) > meeting_reach * meeting_reach;
-        float next = gone ? last : min(t + min((0.9 * clearance(x) + OVERSTEP) / max(length(velocity), 1e-20), 0.25), last);
+        float next = gone ? last : min(t + min((0.9 * clear + OVERSTEP) / max(length(velocity), 1e-20), most), last);
         vec3 onward, y = curve_point(curve, next, onward);
+        float way = distance(x, y);
+        if (!gone && way > clear + 2.0 * OVERSTEP) {
+            most = 0.8 * (next - t) * (clear + OVERSTEP) / way;  // the curve runs faster than it did at t: not so far
+            continue;
+        }
         if (!gone) meet_between(x, y, found);
         found.before = t;
         found.after = next;
         if (found.kind != MEETING_NONE) break;
+        most = 1.0;
         t = next;
         x = y;
         velocity = onward;
@@ -107,4 +116,31 @@ float meeting_root(Curve curve, Found found) {
         if ((here < 0.0) == (below < 0.0)) { low = t; below = here; } else { high = t; above = here; }
     }
     return t;
+}
+
+// All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
+// `point`. Returns whether the ray ends on something opaque.
+bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
+    // From (x, 1) to infinity in the direction v is one straight step between homogeneous places: s = size t/(1 − t).
+    float size = max(length(x), 1.0);
+    vec4 a = vec4(x, 1.0), b = vec4(size * v, 0.0);
+    Curve line = Curve(Path(a, b - a, vec2(0.0)), Path(b, b - a, vec2(0.0)), 1.0);
+    float from = 0.0, to = s_end < 1e29 ? s_end / (size + s_end) : 1.0;
+    bool crosses = s_crossing > 0.0 && s_crossing < s_end;
+    for (int i = 0; i < 8; ++i) {
+        Found found = next_meeting(line, from, to);
+        bool none = found.kind == MEETING_NONE;
+        vec3 ignored, y = curve_point(line, none ? from : meeting_root(line, found), ignored);
+        if (crosses && (none || s_crossing < distance(y, x))) {
+            add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+            crosses = false;
+        }
+        if (none) return false;
+        vec3 before = curve_point(line, found.before, ignored);
+        bool enters = distance_to(found.kind, found.index, before) >= 0.0;
+        add_meeting(hits, found.kind, found.index, enters, y, momentum_at(y, v), is_opaque(found.kind));
+        if (is_opaque(found.kind)) return true;
+        from = found.after;
+    }
+    return false;
 }

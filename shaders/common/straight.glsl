@@ -15,11 +15,24 @@ Hits straight_hits(RayStart start, float radius) {
     float t_end = inside > 0.0 && cosine > 0.0 ? -sqrt(inside) : 1e30;
     hits.fate = t_end < 1e30 ? CAPTURED : ESCAPED;
     if (hits.fate == ESCAPED) hits.direction = normalize(v);
+    float t = 0.0;
+    vec2 point = vec2(0.0);
+    bool crosses = false;
 #if ORDERS > 0
-    float t = -b.z / v.z;
-    vec2 point = b.xy + t * v.xy;
-    bool crosses = start.n.z != 0.0 && v.z != 0.0 && t > t_start && t < t_end;
-    if (crosses && dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+    t = -b.z / v.z;
+    point = b.xy + t * v.xy;
+    crosses = start.n.z != 0.0 && v.z != 0.0 && t > t_start && t < t_end;
+    crosses = crosses && dot(point, point) > crossing_r_min * crossing_r_min;
+#if !MEETINGS
+    if (crosses) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+#endif
+#endif
+#if MEETINGS
+    float from = max(t_start, -2.0 * (meeting_reach + 0.5 * bend) - (crosses ? abs(t) : 0.0));
+    if (meet_on_line(b + from * v, v, t_end - from, crosses ? t - from : -1.0, point, hits)) {
+        hits.fate = MET;
+        hits.direction = vec3(0.0);
+    }
 #endif
     return hits;
 }

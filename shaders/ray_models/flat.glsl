@@ -5,6 +5,7 @@ source = "Euclid"
 slot = "ray_model"
 rank = 4
 kind = "closed"
+tells_paths = true
 space_time = "flat"
 spins = true
 exact = true

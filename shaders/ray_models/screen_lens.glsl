@@ -5,6 +5,7 @@ source = "a screen-space lens effect (docs/sources.md)"
 slot = "ray_model"
 rank = 11
 kind = "closed"
+tells_paths = true
 space_time = "flat"
 spins = false
 exact = false
