@@ -13,10 +13,12 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2])]
 
+from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that may load glfw
+
+# isort: split
 import scenarios  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
 from hands import Hands  # noqa: E402
-from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that may load glfw
 
 from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402

@@ -8,11 +8,13 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from imgui_bundle import imgui  # before glfw: on Linux the first GLFW that is loaded is the one used
+from imgui_bundle.glfw_utils import glfw_window_hello_imgui
+
+# isort: split
 import glfw
 import numpy as np
 from hands import Frames, Hands, wait
-from imgui_bundle import imgui
-from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 from PIL import Image
 
 from blackhole_gl import plan
