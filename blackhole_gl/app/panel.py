@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -11,6 +11,7 @@ from .. import plan
 from ..scene import Scene, catalogue, fields, presets
 from ..scene.schema import Field
 from . import preset_switch, scene_files, theme, widgets
+from .instance_groups import InstanceGroups
 from .state import WindowState
 
 _TITLES = {"hole": "Black hole", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image", "playback": "Playback"}
@@ -18,11 +19,12 @@ _OPEN_AT_START = ("hole", "camera", "disk")
 
 
 class Panel:
-    """The panel's own memory: the list of presets and the text of its filter."""
+    """The panel's own memory: the list of presets, the text of its filter, what is about to be added."""
 
     def __init__(self) -> None:
         self._presets = presets.available()
         self._filter = ""
+        self._instances = InstanceGroups()
 
     def draw(self, state: WindowState, reasons: Sequence[str]) -> None:
         """Draws the panel into the current window.
@@ -45,6 +47,7 @@ class Panel:
                     imgui.push_style_color(imgui.Col_.text, theme.DIM)
                     imgui.text_wrapped("Now: " + "; ".join(reasons))
                     imgui.pop_style_color()
+        self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state), forced_open=bool(wanted))
 
     def _pickers(self, state: WindowState) -> None:
         if not imgui.begin_table("pickers", 2):
@@ -119,18 +122,23 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
         imgui.set_next_item_open(section in _OPEN_AT_START, imgui.Cond_.first_use_ever.value)
     if not imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}"):
         return False
-    group = None
-    if not imgui.begin_table(f"values of {section}", 2):
-        return True
+    _table(f"values of {section}", items, state)
+    return True
+
+
+def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
+    """A row for each of `items`, those of a plug-in under its name."""
+    if not imgui.begin_table(name, 2):
+        return
     _columns()
+    group, scene = None, state.scene  # as it was: another kind picked in one row has not the values of the next
     for item in items:
         plug_in = _plug_in_of(item)
         if plug_in != group:
             group = plug_in
             _subheading(group)
-        widgets.row(item, state.scene.get(item.key), state.change, plan.unfit_options(item.key, state.scene))
+        widgets.row(item, scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
     imgui.end_table()
-    return True
 
 
 def _subheading(plug_in: catalogue.PlugIn | None) -> None:
@@ -145,12 +153,9 @@ def _subheading(plug_in: catalogue.PlugIn | None) -> None:
 
 
 def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
-    """The plug-in that declares `item`, or None for the scene's own."""
-    for slot in catalogue.SLOTS:
-        for plug_in in catalogue.plug_ins(slot).values():
-            if item.key in plug_in.parameters:
-                return plug_in
-    return None
+    """The plug-in that declares `item`, or None for the scene's own and for those of instances."""
+    plug_ins = (plug_in for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values())
+    return next((plug_in for plug_in in plug_ins if item.key in plug_in.parameters), None)
 
 
 def _is_active(item: Field, scene: Scene) -> bool:
@@ -173,7 +178,7 @@ def _matches(item: Field, wanted: str) -> bool:
 
 def _departures(state: WindowState) -> None:
     """A line that says which values make this picture art; nothing when there are none."""
-    names = [widgets.label_of(item.key).lower() for item in fields().values() if widgets.departs(item, state.scene.get(item.key))]
+    names = [widgets.label_of(item.key).lower() for item in state.scene.fields().values() if widgets.departs(item, state.scene.get(item.key))]
     if names:
         imgui.push_style_color(imgui.Col_.text, theme.DEPARTS)
         imgui.text_wrapped("Departs from physics: " + ", ".join(names))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -75,10 +75,16 @@ class WindowState:
 
     def change(self, values: Mapping[str, Any]) -> None:
         """Puts `values` (dotted key → value) into the scene; what a field refuses becomes a notice."""
+        self.edit(lambda scene: scene.with_values(values))
+
+    def edit(self, made: Callable[[Scene], Scene]) -> bool:
+        """Shows what `made` makes of the scene, and says whether it could; what a scene refuses becomes a notice."""
         try:
-            self.show(self.scene.with_values(values))
+            self.show(made(self.scene))
         except SceneError as error:
             self.complain(str(error))
+            return False
+        return True
 
     def move_camera(self, motion: Motion) -> None:
         """Puts the camera where `motion` has it now."""

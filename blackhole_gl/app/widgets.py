@@ -8,9 +8,9 @@ from types import MappingProxyType
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..scene import catalogue
+from ..scene import catalogue, instances
 from ..scene.schema import Field, Value
-from . import theme
+from . import list_rows, text_fields, theme
 
 Change = Callable[[Mapping[str, Value]], None]
 
@@ -40,7 +40,7 @@ def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = Ma
     _label(item, value, change)
     imgui.table_next_column()
     imgui.set_next_item_width(-1.0)
-    edited = _choice(item, value, unfit) if item.kind == "choice" else _WIDGETS[item.kind](item, value)
+    edited = _choice(item, value, unfit) if item.kind == "choice" else _widget(item, value)
     _tooltip(item)
     _menu(item, f"widget {item.key}", change)
     if edited is not None and edited != value:
@@ -95,6 +95,8 @@ def _tooltip(item: Field) -> None:
     imgui.push_text_wrap_pos(26.0 * hello_imgui.em_size())
     imgui.text_unformatted(item.help or label_of(item.key))
     imgui.push_style_color(imgui.Col_.text, theme.DIM)
+    if item.kind in ("text", "file", "list"):
+        imgui.text_unformatted(f"{item.allowed()[0].upper()}{item.allowed()[1:]}.")
     if item.kind in ("float", "int"):
         imgui.text_unformatted(f"{item.allowed()[0].upper()}{item.allowed()[1:]}; default {format_value(item, item.default)}.")
         imgui.text_unformatted("Ctrl+click types a value. Double-click on the name resets.")
@@ -110,6 +112,10 @@ def format_value(item: Field, value: Value | None) -> str:
         return "on" if value else "off"
     if item.kind == "choice":
         return str(value).replace("_", " ")
+    if item.kind == "list":
+        return f"{len(value)} entries" if value else "an empty list"
+    if item.kind in ("text", "file"):
+        return value or "nothing"
     return f"{value:g} {item.unit}".strip()
 
 
@@ -169,8 +175,30 @@ def _switch(item: Field, value: bool) -> bool | None:
     return new if edited else None
 
 
-def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
-    plug_ins = catalogue.plug_ins(_SLOT_OF_CHOICE[item.key]) if item.key in _SLOT_OF_CHOICE else {}
+def _slot_of(key: str) -> str | None:
+    """The catalogue slot whose plug-ins are the options of the choice `key`; None where they are words of its own."""
+    place = instances.place_of(key)
+    if place is not None:
+        return instances.SLOTS[place.section] if place.parameter == catalogue.KIND else None
+    return _SLOT_OF_CHOICE.get(key)
+
+
+def _text(item: Field, value: str) -> str | None:
+    return text_fields.edited(f"##{item.key}", value, "a file" if item.kind == "file" else "")
+
+
+def _list(item: Field, value: tuple[Value, ...]) -> tuple[Value, ...] | None:
+    return list_rows.edited(item, value, _widget, label_of)
+
+
+def _widget(item: Field, value: Value) -> Value | None:
+    """Draws the widget of `item`; what the user made of `value`, or None."""
+    return _WIDGETS[item.kind](item, value)
+
+
+def _choice(item: Field, value: str, unfit: Mapping[str, str] = MappingProxyType({})) -> str | None:
+    slot = _slot_of(item.key)
+    plug_ins = catalogue.plug_ins(slot) if slot else {}
     names = {option: plug_ins[option].label if option in plug_ins else option.replace("_", " ") for option in item.options}
     picked = None
     if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
@@ -185,4 +213,4 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     return picked
 
 
-_WIDGETS = {"float": _slider, "int": _whole_slider, "switch": _switch}
+_WIDGETS = {"float": _slider, "int": _whole_slider, "switch": _switch, "choice": _choice, "text": _text, "file": _text, "list": _list}

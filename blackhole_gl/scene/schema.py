@@ -17,7 +17,7 @@ from typing import Any, Literal, TypeAlias
 from .frozen import FrozenMap
 
 Kind = Literal["float", "int", "switch", "choice", "text", "file", "list"]
-Value: TypeAlias = "float | int | bool | str | tuple[Value, ...] | FrozenMap[str, Value]"
+Value: TypeAlias = float | int | bool | str | tuple | FrozenMap
 
 WHOLE_NUMBER_LIMIT = 2**63
 """TOML promises no more; longer ones overflow float(), and Python writes none of more than 4300 digits."""

@@ -55,9 +55,14 @@ class Hands:
         self.context.item_click(self.item(name))
         self.context.yield_(2)
 
-    def choose(self, combo: str, option: str) -> None:
+    def fill(self, name: str, value: float | str) -> None:
+        """Types `value` into the panel's item and presses Enter."""
+        self.context.item_input_value(self.item(name), value)
+        self.context.yield_(2)
+
+    def choose(self, combo: str, option: str, table: str = "pickers/") -> None:
         self.context.scroll_to_top(f"//{PANEL}")
-        self.context.item_click(f"//{PANEL}/pickers/{combo}")  # a closed combo has no label that a search could find
+        self.context.item_click(f"//{PANEL}/{table}{combo}")  # a closed combo has no label that a search could find
         self.context.item_click(f"//##Combo_00/{option}")
         self.context.yield_(2)
 

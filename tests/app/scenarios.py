@@ -395,4 +395,57 @@ def preset_switches_never_freeze(hands: Hands) -> None:
     frames.leave()
 
 
+def instances_are_made_edited_and_removed(hands: Hands) -> None:
+    """Things in the panel, of the kinds in tests/unit/kinds.py: every kind of value, a new name, another kind, and gone."""
+    hands.choose("##kind of new things", "Sphere##sphere", table="")
+    hands.fill("##name of new things", "moon")
+    hands.click("Add##things")
+    assert hands.scene.things["moon"].kind == "sphere"
+    hands.fill("##things.moon.radius", 2.5)
+    hands.fill("##things.moon.count", 4)
+    hands.click("##things.moon.glows")
+    hands.choose("##things.moon.pattern", "chequered##chequered", table="values of things.moon/")
+    hands.fill("##things.moon.caption", "The moon")
+    hands.fill("##things.moon.image", "moon.gif")
+    assert hands.state.notice.is_error and "things.moon.image: got 'moon.gif'" in hands.state.notice.text
+    hands.fill("##things.moon.image", "moon.png")
+    values = hands.scene.things["moon"].values
+    assert {name: values[name] for name in ("radius", "count", "glows", "pattern", "caption", "image")} == {
+        "radius": 2.5, "count": 4, "glows": True, "pattern": "chequered", "caption": "The moon", "image": "moon.png",
+    }  # fmt: skip
+    hands.fill("##things.moon.radii[1]", 4.0)
+    hands.click("+##things.moon.radii")
+    hands.click("-##things.moon.radii[0]")
+    assert hands.scene.get("things.moon.radii") == (4.0, 4.0)
+    hands.click("+##things.moon.path")
+    hands.click("+##things.moon.path")
+    hands.fill("##things.moon.path[1].time", 7.0)
+    hands.choose("##things.moon.path[1].ease", "linear##linear", table="values of things.moon/")
+    assert [(entry["time"], entry["ease"]) for entry in hands.scene.get("things.moon.path")] == [(0.0, "smooth"), (7.0, "linear")]
+    saved = hands.scene
+    hands.click("Copy as TOML")
+    hands.fill("##name of things.moon", "luna")
+    assert list(hands.scene.things) == ["luna"] and hands.scene.get("things.luna.radius") == 2.5
+    hands.choose("##things.luna.kind", "Cube##cube", table="values of things.luna/")
+    assert dict(hands.scene.things["luna"].values) == {"edge": 2.0, "radius": 0.5, "glows": True}
+    hands.click("Add##things")
+    assert list(hands.scene.things) == ["luna", "sphere"], "a name that is free is given where none is typed"
+    hands.fill("##name of things.sphere", "luna")
+    assert hands.state.notice.is_error and "things.luna: there is one already" in hands.state.notice.text
+    hands.click("Remove##things.luna")
+    assert list(hands.scene.things) == ["sphere"]
+    hands.click("Paste TOML")
+    assert hands.scene == saved
+    hands.click("Add##media")
+    assert hands.scene.media["cloud"].kind == "cloud"
+
+
+def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
+    """tests/app/test_window.py puts it there; the window opened all the same."""
+    assert "wrong.glsl: got the entry 'colour'" in hands.state.shader_error and "started again" in hands.state.shader_error
+    hands.context.yield_(40)
+    assert hands.state.shader_error and hands.state.render_error is None
+
+
+WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
 WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, preset_switches_never_freeze)

@@ -8,12 +8,15 @@ from pathlib import Path
 
 import pytest
 
+from tests.unit import kinds
+
 HERE = Path(__file__).resolve().parent
 # Read as text: importing scenarios.py would load imgui into the test process, where a later test may want another GLFW.
 TEXT = (HERE / "scenarios.py").read_text(encoding="utf-8")
 SCENARIOS = re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE)
 REAL = re.findall(r"\w+", re.search(r"^WITH_THE_REAL_RENDERER = \((.*)\)", TEXT, re.MULTILINE)[1])
-PRETENDED = [name for name in SCENARIOS if name not in REAL]
+WITH_KINDS = re.findall(r"\w+", re.search(r"^WITH_KINDS = \((.*)\)", TEXT, re.MULTILINE)[1])
+PRETENDED = [name for name in SCENARIOS if name not in REAL + WITH_KINDS]
 
 
 def run(names: list[str], folder: Path) -> None:
@@ -30,6 +33,13 @@ def run(names: list[str], folder: Path) -> None:
 @pytest.mark.parametrize("names", [PRETENDED[0::2], PRETENDED[1::2]], ids=["even", "odd"])
 def test_scenarios_with_a_pretended_renderer(names, tmp_path):
     run(names, tmp_path)
+
+
+def test_scenarios_with_kinds_of_the_users_own(tmp_path):
+    shaders = kinds.put(tmp_path)
+    (shaders / "skies").mkdir()
+    (shaders / "skies" / "wrong.glsl").write_text(kinds.CLOUD.replace("medium", "sky").replace("[parameters", "colour = 3\n[parameters"), encoding="utf-8")
+    run(WITH_KINDS, tmp_path)
 
 
 @pytest.mark.parametrize("name", REAL)

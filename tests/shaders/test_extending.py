@@ -1,7 +1,8 @@
-"""The examples in docs/extending.md, put into a copy of the project, work as they stand there."""
+"""The examples in docs/extending.md work as they stand there: the GLSL in a configuration folder, the Python in a copy of the project."""
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
@@ -17,12 +18,14 @@ PYTHON = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
 TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
 DRAW = """
-import sys
+import os, sys
+from pathlib import Path
 import numpy as np
-from blackhole_gl.scene import presets
+from blackhole_gl.scene import catalogue, presets
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 
+assert not catalogue.mistakes(), catalogue.mistakes()
 renderer = Renderer(create_headless())
 
 def drawn(names, changes):
@@ -33,45 +36,79 @@ def drawn(names, changes):
     return renderer.read_rgb8().astype(int)
 
 plain = drawn(["kerr"], {})
+"""
+
+OWN = """
 for changes in (
     {"sky.model": "graticule", "sky.graticule.spacing": 10.0},
+    {"sky.model": "star_chart"},
     {"disk.spiral": True, "disk.turbulence": False},
     {"rays.model": "kink"},
     {"rays.model": "kink", "camera.distance": float("inf")},
     {"rays.integrator": "midpoint"},
-    {"disk.temperature_law": "constant"},
 ):
     assert np.abs(drawn(["kerr"], changes) - plain).max() > 8, changes
-drawn([sys.argv[1]], {})
+assert np.array_equal(drawn(["kerr"], {"sky.model": "procedural"}), plain)
+drawn(["preset.toml"], {})
+
+chart = drawn(["kerr"], {"sky.model": "star_chart", "disk.enabled": False})
+assert {0.8, 0.02} == {round(float(x), 2) for x in np.unique(renderer.radiance()[:6, :6])}, "it reads the table that it declares"
+
+# A running window takes up what is edited there, and names the file of a mistake.
+file = Path(os.environ["BLACKHOLE_GL_CONFIG_DIR"]) / "shaders" / "skies" / "star_chart.glsl"
+text = file.read_text()
+
+def edit(new):
+    file.write_text(new)
+    later = file.stat().st_mtime_ns + 10**9
+    os.utime(file, ns=(later, later))
+    return renderer.programs.reload()
+
+(error,) = edit(text.replace("vec2 place", "vec3 place"))
+assert error.file == str(file) and error.line == text[: text.index("vec2 place")].count(chr(10)) + 1, error
+assert edit(text.replace("0.8 : 0.02", "0.5 : 0.5")) == []
+assert np.abs(drawn(["kerr"], {"sky.model": "star_chart", "disk.enabled": False}) - chart).max() > 8
+"""
+
+LAW = """
+assert np.abs(drawn(["kerr"], {"disk.temperature_law": "constant"}) - plain).max() > 8
 """
 
 
-@pytest.fixture
-def extended(tmp_path: Path) -> Path:
-    """A copy of the project with every example of the page in it."""
-    for folder in ("blackhole_gl", "shaders", "presets", "assets"):
-        shutil.copytree(ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__"))
-    for path, text in SHADERS:
-        assert not (tmp_path / path).exists(), f"{path} is there already: the example needs another name"
-        (tmp_path / path).write_text(text, encoding="utf-8")
-    layer, law = PYTHON
-    scene = tmp_path / "blackhole_gl" / "scene" / "records.py"
-    text = scene.read_text(encoding="utf-8")
-    text, layers = re.subn(r"^(    turbulence: bool = .*\n)", lambda match: match[1] + layer, text, flags=re.MULTILINE)
-    text, laws = re.subn(r'"shakura_sunyaev", ', '"shakura_sunyaev", "constant", ', text)
-    assert (layers, laws) == (1, 1)
-    scene.write_text(text, encoding="utf-8")
-    profile = tmp_path / "blackhole_gl" / "physics" / "disk_profile.py"
-    profile.write_text(profile.read_text(encoding="utf-8") + "\n\n" + law, encoding="utf-8")
-    (tmp_path / "preset.toml").write_text(TOML[0], encoding="utf-8")
-    return tmp_path
+def run(script: str, folder: Path, own: Path) -> None:
+    """Runs `script` in `folder`, with the project from there or else from here, and `own` as the configuration folder."""
+    environment = {**os.environ, "BLACKHOLE_GL_CONFIG_DIR": str(own), "PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
+    done = subprocess.run([sys.executable, "-c", script], cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
 
 
 def test_the_page_has_an_example_of_each_slot() -> None:
     assert {Path(path).parent.name for path, _ in SHADERS} == {"skies", "disks", "ray_models", "integrators"}
-    assert len(PYTHON) == 2 and len(TOML) == 1
+    assert len(PYTHON) == 1 and len(TOML) == 1
 
 
-def test_every_example_draws(extended: Path) -> None:
-    done = subprocess.run([sys.executable, "-c", DRAW, "preset.toml"], cwd=extended, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0, done.stderr
+def test_every_shader_on_the_page_draws_from_the_configuration_folder(tmp_path: Path) -> None:
+    for path, text in SHADERS:
+        file = tmp_path / "config" / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+    (tmp_path / "preset.toml").write_text(TOML[0], encoding="utf-8")
+    run(DRAW + OWN, tmp_path, tmp_path / "config")
+
+
+@pytest.fixture
+def changed(tmp_path: Path) -> Path:
+    """A copy of the project with the page's temperature law in it."""
+    for folder in ("blackhole_gl", "shaders", "presets", "assets"):
+        shutil.copytree(ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    sections = tmp_path / "blackhole_gl" / "scene" / "sections.py"
+    text, laws = re.subn(r'"shakura_sunyaev", ', '"shakura_sunyaev", "constant", ', sections.read_text(encoding="utf-8"))
+    assert laws == 1
+    sections.write_text(text, encoding="utf-8")
+    profile = tmp_path / "blackhole_gl" / "physics" / "disk_profile.py"
+    profile.write_text(profile.read_text(encoding="utf-8") + "\n\n" + PYTHON[0], encoding="utf-8")
+    return tmp_path
+
+
+def test_the_temperature_law_on_the_page_is_two_places_of_the_project(changed: Path) -> None:
+    run(DRAW + LAW, changed, changed / "config")

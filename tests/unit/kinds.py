@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
+
+import pytest
+
+from blackhole_gl.resources import shaders_dir
+from blackhole_gl.scene import catalogue, instances
 
 SPHERE = '''/*---
 label = "Sphere"
@@ -100,3 +106,16 @@ def put(folder: Path) -> Path:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
     return folder / "shaders"
+
+
+@pytest.fixture
+def known_kinds(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Sphere, cube and cloud are known while a test runs; the configuration folder that they lie in."""
+    folder = tmp_path_factory.mktemp("config")
+    monkeypatch.setenv("BLACKHOLE_GL_CONFIG_DIR", str(folder))
+    found = catalogue.read(shaders_dir(), put(folder))
+    assert found.mistakes == ()
+    monkeypatch.setattr(catalogue, "_catalogue", lambda: found)
+    instances._fields_of.cache_clear()
+    yield folder
+    instances._fields_of.cache_clear()

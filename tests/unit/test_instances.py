@@ -13,26 +13,13 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from blackhole_gl.output import png
-from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import FrozenMap, Instance, Scene, SceneError, catalogue, fields, presets
-from blackhole_gl.scene import instances as named
 from blackhole_gl.scene.presets import PresetError
-from tests.unit import kinds
+from tests.unit.kinds import known_kinds  # noqa: F401
+
+pytestmark = pytest.mark.usefixtures("known_kinds")
 
 MOON = {"things.moon.kind": "sphere"}
-
-
-@pytest.fixture(autouse=True)
-def known_kinds(tmp_path_factory, monkeypatch):
-    """Sphere, cube and cloud are known while a test runs."""
-    folder = tmp_path_factory.mktemp("config")
-    monkeypatch.setenv("BLACKHOLE_GL_CONFIG_DIR", str(folder))
-    found = catalogue.read(shaders_dir(), kinds.put(folder))
-    assert found.mistakes == ()
-    monkeypatch.setattr(catalogue, "_catalogue", lambda: found)
-    named._fields_of.cache_clear()
-    yield
-    named._fields_of.cache_clear()
 
 
 def moon(**values) -> Scene:
