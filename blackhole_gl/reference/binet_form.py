@@ -5,7 +5,9 @@ own parameter, normalised to E = 1) the plane turns uniformly and what is left i
 
     n' = h e,   e' = -h n,   w'' = -h^2 w + (3/2) G h^2 w^2,   w = 1/r,
 
-regular for radial rays (h = 0) and through infinity (w = 0). At G = 1 these are the null geodesics of Schwarzschild.
+regular for radial rays (h = 0) and through infinity (w = 0). At G = 1 these are the null geodesics of Schwarzschild. Any other G multiplies
+the force law: for parallel rays from infinity that is a hole of another size, from nearer by the picture of no space-time, as the observer's
+frame stays that of G = 1.
 
 The observer is the static one of Schwarzschild at every G: v = n_r e_r + n_t e_t/sqrt(1 - 1/R) for E = 1.
 
