@@ -83,7 +83,8 @@ class BinetSystem:
         changes neither.
         """
         if self.bending != 1.5:
-            return np.full((2, state.shape[1]), np.nan)
+            none = np.full(state.shape[1], np.nan)
+            return none, none
         ring = np.hypot(state[N_X], state[N_Y])
         along_theta = state[N_Z] * (state[N_X] * state[E_X] + state[N_Y] * state[E_Y]) / ring - ring * state[E_Z]
         return state[W_DOT] / (1.0 - state[W]), -2.0 * state[H] * along_theta
