@@ -301,9 +301,13 @@ def falls_in(n_r: ArrayLike, n_theta: ArrayLike, n_phi: ArrayLike, r: ArrayLike,
              observer: str = "static") -> Array:
     """True where the backward ray along n of an observer at r (r_s) ends in the hole: the exact fate, without tracing.
 
-    With V = (r^2 + a^2 - a lambda)^2/Delta a ray may be where V >= K/E^2. V falls from the horizon to its minimum at the
-    barrier r_p and then rises: a ray is turned there if K exceeds the minimum. Near r_p the difference V(r) - V(r_p) is
-    formed from its factors, (r - r_p)^2 (r^2 + 2 r_p r + q)/Delta.
+    With V = (r^2 + a^2 - a lambda)^2/Delta a ray may be where V >= K/E^2, K = Q + (L - a E)^2. V falls from the horizon to its minimum at
+    the barrier r_p and then rises: a ray is turned there if K exceeds the minimum. r_p depends on a lambda only (`_barrier_offset`). Near r_p
+    the difference is formed from its factors,
+
+        V(r) - V(r_p) = (r - r_p)^2 (r^2 + 2 r_p r + q)/Delta,   q = r_p^2 - 4 r_p Delta_p/(r_p - 1)^2
+
+    Two cases need no barrier: E <= 0 (a ZAMO in the ergosphere sees such light) is captured, and a lambda >= 2 r_+ cannot enter.
     """
     photon = photon_constants(n_theta, n_phi, r, theta, spin, observer)
     r_o, sine, sigma, delta, _ = _metric(r, theta, spin)

@@ -5,7 +5,9 @@ own parameter, normalised to E = 1) the plane turns uniformly and what is left i
 
     n' = h e,   e' = -h n,   w'' = -h^2 w + (3/2) G h^2 w^2,   w = 1/r,
 
-regular for radial rays (h = 0) and through infinity (w = 0). At G = 1 these are the null geodesics of Schwarzschild.
+regular for radial rays (h = 0) and through infinity (w = 0). At G = 1 these are the null geodesics of Schwarzschild. Any other G multiplies
+the force law: for parallel rays from infinity that is a hole of another size, from nearer by the picture of no space-time, as the observer's
+frame stays that of G = 1.
 
 The observer is the static one of Schwarzschild at every G: v = n_r e_r + n_t e_t/sqrt(1 - 1/R) for E = 1.
 
@@ -81,7 +83,8 @@ class BinetSystem:
         changes neither.
         """
         if self.bending != 1.5:
-            return np.full((2, state.shape[1]), np.nan)
+            none = np.full(state.shape[1], np.nan)
+            return none, none
         ring = np.hypot(state[N_X], state[N_Y])
         along_theta = state[N_Z] * (state[N_X] * state[E_X] + state[N_Y] * state[E_Y]) / ring - ring * state[E_Z]
         return state[W_DOT] / (1.0 - state[W]), -2.0 * state[H] * along_theta

@@ -39,7 +39,7 @@ class Crossings:
     def none(cls, rays: int, events: int, orders: int) -> Crossings:
         return cls(*np.full((len(fields(cls)), rays, events, orders), np.nan))
 
-    def record(self, where: tuple, along: Array, r: Array, n: Array, momentum: tuple[Array, Array]) -> None:
+    def record(self, where: tuple, along: Array, r: Array, n: Array, momentum: tuple[Array, Array] | tuple[float, float]) -> None:
         """Puts crossings at r (k,) in r_s in the unit directions n (3, k) into the entries `where`."""
         self.along[where], self.r[where] = along, r
         self.theta[where] = np.arctan2(np.hypot(n[0], n[1]), n[2])
@@ -89,9 +89,9 @@ class Traced:
 
 def joined(parts: Sequence[Traced]) -> Traced:
     """One record of the rays of `parts`, one after the other."""
-    arrays = (np.concatenate([getattr(part, name) for part in parts]) for name in ("fate", "direction", "steps", "energy", "l_z"))
+    arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in ("fate", "direction", "steps", "energy", "l_z")}
     crossings = (np.concatenate([getattr(part.crossings, item.name) for part in parts]) for item in fields(Crossings))
-    return Traced(*arrays, Crossings(*crossings))
+    return Traced(**arrays, crossings=Crossings(*crossings))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,9 @@ run side by side, so that a step of order 14 costs 14 calls of the right-hand si
 Source: Hairer, Norsett & Wanner, *Solving Ordinary Differential Equations I*, II.9 (modified midpoint rule,
 harmonic sequence 2, 4, 6 ..., Aitken-Neville). The modified midpoint rule is left unsmoothed: with even numbers
 of substeps its error is a series in h^2 all the same.
+
+Tolerances below 1e-13 leave nothing to gain: rounding has the rest. Events are found by Newton's method with a fresh step from the last
+accepted state to each trial point, not on an interpolant.
 """
 
 from __future__ import annotations

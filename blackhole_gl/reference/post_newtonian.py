@@ -68,7 +68,8 @@ class PostNewtonianSystem:
 
     def momentum(self, state: Array) -> tuple[Array, Array]:
         """NaN: what moves here changes its speed as a slow mass does, and is light in no metric."""
-        return np.full((2, state.shape[1]), np.nan)
+        none = np.full(state.shape[1], np.nan)
+        return none, none
 
     def start(self, place: Place, directions: Array) -> Array:
         """State (9, N) for local directions (N, 3) in a flat frame at `place` (r in r_s): the observer's own frame is skipped."""

@@ -95,6 +95,9 @@ def _agree(found: listed_rays.TracedRays, twin: listed_rays.TracedRays, name: st
     np.testing.assert_array_equal(found.fate, twin.fate)
     np.testing.assert_array_equal(np.isnan(found.crossing_r), np.isnan(twin.crossing_r))
     np.testing.assert_array_equal(np.isnan(found.crossing_g), np.isnan(twin.crossing_g))
+    np.testing.assert_allclose(found.crossing_theta, twin.crossing_theta, atol=1e-12)  # the equator, in both
+    # λ is linear in a float32 direction: what one rounding moves it by is that of the largest λ in the list.
+    assert np.abs(found.lambda_ - twin.lambda_).max() <= 1e-6 * np.abs(twin.lambda_).max()
     angle = np.linalg.norm(found.direction - twin.direction, axis=1)[twin.fate == 1]
     crossing = _quantile(np.abs(found.crossing_r / twin.crossing_r - 1.0) / np.maximum(1.0, twin.crossing_r / FAR))
     g = _quantile(np.abs(found.crossing_g / twin.crossing_g - 1.0))
