@@ -8,16 +8,17 @@ PYTEST_ARGS ?=
 CHART_ARGS  ?=
 STABILITY_ARGS ?=
 FLIGHT_ARGS ?=
+PYTHONS     ?= python3.11 python3.12 python3.13 python3.14
 
 BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow gallery chart stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery chart stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
-	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "%-16s %s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | awk -F'|' '{ printf "%-20s %s\n", $$1, $$2 }'
 	@echo 'Settings: PYTHON=python3.12  VENV=.venv  PRESET=kerr (view)  WORKERS=2  PYTEST_ARGS="tests/unit -x" (test)'
 
 setup: ## the virtual environment and the GL libraries, no more
@@ -39,11 +40,14 @@ chart: ## measure every method: docs/accuracy.md, its charts, and the table the 
 	@$(SETUP) chart
 	$(BIN)/python -m studies.chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
 
-test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight
+test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight, other drivers
 	@$(SETUP) test
 	$(BIN)/python -m pytest -n $(WORKERS) -m slow $(PYTEST_ARGS)
 
-stability: ## every method through the cases where methods fail: docs/stability.md; STABILITY_ARGS="--only kerr"
+test-pythons: ## unit tests and golden pictures by every interpreter of PYTHONS, each in an environment of its own
+	@for python in $(PYTHONS); do $(MAKE) test PYTHON=$$python VENV=.venv-$$python PYTEST_ARGS='tests/unit tests/images' || exit 1; done
+
+stability: ## every method through the cases where methods fail: docs/stability.md and its data; STABILITY_ARGS="--only kerr"
 	@$(SETUP) run
 	$(BIN)/python -m studies.make_stability_page $(STABILITY_ARGS)
 
@@ -52,5 +56,5 @@ flight: ## ten seconds round the hole, refined and exact: docs/data/flight.csv a
 	$(BIN)/python -m studies.fly $(FLIGHT_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
-	rm -rf $(VENV) build dist .pytest_cache .hypothesis tests/output
+	rm -rf $(VENV) $(addprefix .venv-,$(PYTHONS)) build dist .pytest_cache .hypothesis tests/output
 	find blackhole_gl studies tests tools -name __pycache__ -type d -exec rm -rf {} +

@@ -8,7 +8,7 @@ import numpy as np
 
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import angles_between
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene, critical_radius, true_scene
 from blackhole_gl.render.frame import Renderer
 
@@ -17,10 +17,10 @@ _PER_DISTANCE = 16
 
 # Coarse, everyday and finest steps of the exact models, a low-order scheme, and a wrong force.
 _METHODS = (
-    (Method("kerr", "rk4", "mino"), (0.4, 0.2, 0.05)),
-    (Method("schwarzschild", "rk4", "radius"), (0.15, 0.02)),
-    (Method("schwarzschild", "verlet", "radius"), (0.08,)),
-    (Method("post_newtonian", "rk4", "radius"), (0.15,)),
+    (Combination("kerr", "rk4", "mino"), (0.4, 0.2, 0.05)),
+    (Combination("schwarzschild", "rk4", "radius"), (0.15, 0.02)),
+    (Combination("schwarzschild", "verlet", "radius"), (0.08,)),
+    (Combination("post_newtonian", "rk4", "radius"), (0.15,)),
 )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import LARGEST_DISK, angles_between
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import SHOWN, ChartScene
 from blackhole_gl.render.frame import Renderer
 
@@ -17,7 +17,7 @@ AWAY, CLOSE = 1e-2, 1e-6
 
 BOUNDS = {"direction_median": 2e-6, "direction_99": 1e-5, "crossing_r_median": 3e-7, "crossing_r_99": 1e-5, "g_99": 1e-5, "wrong_fates": 0.0}
 
-_METHODS = ((Method("kerr", "rk4", "mino"), 0.05), (Method("schwarzschild_binet", "rk4", "mino"), 0.05))
+_METHODS = ((Combination("kerr", "rk4", "mino"), 0.05), (Combination("schwarzschild_binet", "rk4", "mino"), 0.05))
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def finest(renderer: Renderer, scenes: list[ChartScene]) -> list[Finest]:
     return found
 
 
-def _measure(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float) -> Finest:
+def _measure(renderer: Renderer, chart_scene: ChartScene, method: Combination, setting: float) -> Finest:
     traced, truth = listed_rays.trace_by_shader(renderer, method.applied(chart_scene.scene, setting), chart_scene.rays), chart_scene.truth
     away = chart_scene.epsilon >= AWAY
     inside = (truth.crossing_r <= LARGEST_DISK) & away[:, None]

@@ -11,8 +11,9 @@ import numpy as np
 from blackhole_gl import listed_rays, plan
 from blackhole_gl.measure import refined, timing
 from blackhole_gl.measure.errors import compare
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene
+from blackhole_gl.plan.measured import Measured
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
 
@@ -40,45 +41,19 @@ QUICK = Timings((320, 180), 2, 2)
 
 
 @dataclass(frozen=True)
-class Row:
-    """One line of the table.
+class Row(Measured):
+    """A row of the table for readers: what the plan reads, and more.
 
     Attributes:
-        scene … step_tolerance: what was measured; step settings that the method does not have are NaN.
-        direction_median … lost_crossings: as `errors.Errors`, for rays off the critical curve.
+        variant: the model's switches that are not as they come.
+        lost_crossings: as `errors.Errors`, for rays off the critical curve.
         near_…: the same for rays within 1e-3 of it.
-        own_direction_99: error against the method's own float64 twin: what is left when the model's wrongness is taken away.
+        own_…: error against the method's own float64 twin: what is left when the model's wrongness is taken away.
         unresolved: rays without a fate, of all.
-        evaluations: of the right-hand side, mean over the rays.
-        cost_flat_ratio: shortest frame time over the shortest of the flat frame, taken in turn.
-        refined: 1 for a refined hit map, as a moving camera's (`refined.trace`): rays are the pixels of a picture of `choice.REFINED_SIZE`, and
-            that is what is timed. Its crossing_r_99 is relative to the disk's outer radius.
-        cost_unrefined: of a refined row: the ratio at that size with a ray for every pixel.
-        cost_low, cost_high: extremes of that ratio in the single rounds.
+        cost_low, cost_high: extremes of the cost in the single rounds.
         milliseconds: of the frame, on the machine named in the table's head.
     """
 
-    scene: str
-    spin: float
-    distance: float
-    inclination_deg: float
-    fov_deg: float
-    model: str
-    integrator: str
-    step_control: str
-    step_length: float
-    step_angle: float
-    direction_median: float
-    direction_99: float
-    direction_worst: float
-    crossing_r_99: float
-    g_99: float
-    wrong_fates: float
-    evaluations: float
-    cost_flat_ratio: float
-    step_tolerance: float
-    refined: int
-    cost_unrefined: float
     variant: str
     lost_crossings: float
     near_direction_median: float
@@ -101,16 +76,14 @@ class Row:
 
     @property
     def method(self) -> str:
-        """The method's name, without the setting."""
+        """The combination's name, without the setting."""
         return ", ".join(part for part in (self.model, self.integrator, self.step_control, self.variant, "refined" if self.refined else "") if part)
 
 
 COLUMNS = tuple(item.name for item in record_fields(Row))
-CONTRACT = COLUMNS[: COLUMNS.index("variant")]
-"""The columns that plan.py reads."""
 
 
-def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, settings: tuple[float, ...], timings: Timings, twin: listed_rays.TracedRays | None) -> list[Row]:
+def measure(renderer: Renderer, chart_scene: ChartScene, method: Combination, settings: tuple[float, ...], timings: Timings, twin: listed_rays.TracedRays | None) -> list[Row]:
     """A row for each of `settings`.
 
     Args:
@@ -128,7 +101,7 @@ def measure(renderer: Renderer, chart_scene: ChartScene, method: Method, setting
     return rows
 
 
-def _refined_row(renderer: Renderer, chart_scene: ChartScene, method: Method, setting: float, scene: Scene, rounds: int) -> Row:
+def _refined_row(renderer: Renderer, chart_scene: ChartScene, method: Combination, setting: float, scene: Scene, rounds: int) -> Row:
     found = refined.trace(renderer, chart_scene, scene)
     cost, cost_unrefined = refined.costs(renderer, scene, rounds)
     return replace(_row(chart_scene, method, setting, found, refined.truth(chart_scene), None, cost), cost_unrefined=cost_unrefined)
@@ -136,7 +109,7 @@ def _refined_row(renderer: Renderer, chart_scene: ChartScene, method: Method, se
 
 def _row(
     chart_scene: ChartScene,
-    method: Method,
+    method: Combination,
     setting: float,
     found: listed_rays.TracedRays,
     truth: listed_rays.TracedRays,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from blackhole_gl import plan
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene, chart_scenes
 from blackhole_gl.output.files import write_whole
 from blackhole_gl.plan import choice
@@ -86,7 +86,7 @@ def plan_choices(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> dict[str,
 def _is_method_of(row: Row, scene: Scene) -> bool:
     if row.model != scene.rays.model or row.variant or row.refined:
         return False
-    method = Method(row.model, row.integrator, row.step_control)
+    method = Combination(row.model, row.integrator, row.step_control)
     same = (row.integrator, row.step_control) == (scene.rays.integrator, scene.rays.step_control)
     return method.knob == "none" or (same and row.setting == scene.get(method.knob_key))
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from blackhole_gl import plan
 from blackhole_gl.measure import timing
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.refined import refined_plan
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene
@@ -14,11 +14,11 @@ from blackhole_gl.scene import Scene
 SIZES = ((160, 90), (320, 180), (480, 270), (640, 360), (960, 540), (1280, 720))
 
 _METHODS = {
-    "kerr, κ = 0.4": (Method("kerr", "rk4", "mino"), 0.4),
-    "kerr, κ = 0.2": (Method("kerr", "rk4", "mino"), 0.2),
-    "kerr, κ = 0.05": (Method("kerr", "rk4", "mino"), 0.05),
-    "kerr, κ = 0.2, refined": (Method("kerr", "rk4", "mino", refined=True), 0.2),
-    "schwarzschild, rk4, Δt₀ = 0.15": (Method("schwarzschild", "rk4", "radius"), 0.15),
+    "kerr, κ = 0.4": (Combination("kerr", "rk4", "mino"), 0.4),
+    "kerr, κ = 0.2": (Combination("kerr", "rk4", "mino"), 0.2),
+    "kerr, κ = 0.05": (Combination("kerr", "rk4", "mino"), 0.05),
+    "kerr, κ = 0.2, refined": (Combination("kerr", "rk4", "mino", refined=True), 0.2),
+    "schwarzschild, rk4, Δt₀ = 0.15": (Combination("schwarzschild", "rk4", "radius"), 0.15),
 }
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from blackhole_gl import reference
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.physics import observer, relativity
 from blackhole_gl.physics.space_time import ray_model, space_time
 from blackhole_gl.render.frame import Renderer
@@ -52,49 +52,49 @@ class Judgement:
     error: float = math.nan
 
 
-def methods() -> list[Method]:
+def methods() -> list[Combination]:
     """Every combination that the catalogue lets through: models in its order, each model's default method first."""
-    found: list[Method] = []
+    found: list[Combination] = []
     for model in catalogue.plug_ins("ray_model").values():
         if not model.traits.charted:
             continue
         if model.traits.kind == "closed":
-            found += [Method(model.key), *_variants(model)]
+            found += [Combination(model.key), *_variants(model)]
             continue
         pairs = ((i, c) for i in catalogue.keys("integrator") for c in catalogue.keys("step_control"))
-        fitting = [Method(model.key, i, c) for i, c in pairs if not catalogue.reasons_against(model.key, i, c)]
+        fitting = [Combination(model.key, i, c) for i, c in pairs if not catalogue.reasons_against(model.key, i, c)]
         found += sorted(fitting, key=lambda method: not is_default(method))
     return found
 
 
-def _variants(model: PlugIn) -> list[Method]:
+def _variants(model: PlugIn) -> list[Combination]:
     """A closed model with each of its switches and whole numbers at every other value."""
     found = []
     for key, item in model.parameters.items():
         values = (False, True) if item.kind == "switch" else range(int(item.low), int(item.high) + 1) if item.kind == "int" else ()
-        found += [Method(model.key, changes=((key, value),)) for value in values if value != item.default]
+        found += [Combination(model.key, changes=((key, value),)) for value in values if value != item.default]
     return found
 
 
-def is_default(method: Method) -> bool:
+def is_default(method: Combination) -> bool:
     """Whether this is its model's first method: the catalogue's first integrator and the model's own step control."""
     if not method.integrator:
         return not method.changes
     return (method.integrator, method.step_control) == (catalogue.keys("integrator")[0], traits(method).step_control)
 
 
-def traits(method: Method) -> RayModelTraits:
+def traits(method: Combination) -> RayModelTraits:
     """The traits of its ray model."""
     return catalogue.plug_ins("ray_model")[method.model].traits
 
 
-def chosen(method: Method) -> dict[str, Any]:
+def chosen(method: Combination) -> dict[str, Any]:
     """The scene values that choose it."""
     values = {"rays.model": method.model, "rays.integrator": method.integrator, "rays.step_control": method.step_control, **dict(method.changes)}
     return {key: value for key, value in values.items() if value != ""}
 
 
-def run(renderer: Renderer, case: Case, method: Method, rays: int = 20_000) -> Judgement:
+def run(renderer: Renderer, case: Case, method: Combination, rays: int = 20_000) -> Judgement:
     """The judgement of one cell; `rays` is the size of a sweep."""
     facts = traits(method)
     if case.needs == "steps" and facts.kind == "closed":
@@ -115,7 +115,7 @@ def run(renderer: Renderer, case: Case, method: Method, rays: int = 20_000) -> J
     return _judge_rays(renderer, scene, case)
 
 
-def scene_of(case: Case, method: Method) -> Scene:
+def scene_of(case: Case, method: Combination) -> Scene:
     """The scene of one cell: the shipped reference quality, the case's values, the method."""
     return presets.load(["reference"], {"disk.outer_radius": 20.0, **case.values, **chosen(method)})
 
@@ -223,7 +223,7 @@ OTHER_SWEEP_RAYS = 16_000
 """Rays of a sweep through a method that is not its model's default, on the page and wherever it is checked: another number means other scenes."""
 
 
-def sweep(renderer: Renderer, method: Method, rays: int, artistic: bool = False, seed: int = 9) -> Judgement:
+def sweep(renderer: Renderer, method: Combination, rays: int, artistic: bool = False, seed: int = 9) -> Judgement:
     """`rays` random rays in random scenes: all finite, all with a fate; and for exact models the right one, by the closed form of the fate."""
     total = unresolved = bad = wrong = 0
     judged = traits(method).exact and traits(method).space_time != "flat" and not artistic
@@ -249,7 +249,7 @@ def _falls_in(scene: Scene, directions: np.ndarray) -> np.ndarray:
     return relativity.falls_in(*directions.T, camera.distance, theta, seen.spin, seen.kind)
 
 
-def random_scenes(method: Method, rays: int, artistic: bool, seed: int) -> Iterator[tuple[Scene, np.ndarray]]:
+def random_scenes(method: Combination, rays: int, artistic: bool, seed: int) -> Iterator[tuple[Scene, np.ndarray]]:
     """Scenes over the whole range of hole, camera and steps, each with at most 2000 random local directions, `rays` in all."""
     rng = np.random.default_rng(seed)
     base = presets.load(["reference"], chosen(method))

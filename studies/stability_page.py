@@ -7,7 +7,7 @@ import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.scene import catalogue
 from studies.stability import DEGRADED, FAILS, FINE, NOT_APPLICABLE, Judgement, is_default, methods, traits
 from studies.stability_cases import CASES, DEGREE, FLOOR, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case
@@ -30,7 +30,7 @@ EXPLANATIONS: Mapping[str, str] = {
 """Why a cell is not fine, by the letter that stands in it."""
 
 
-def explanation(case: Case, method: Method) -> str:
+def explanation(case: Case, method: Combination) -> str:
     """The letter of `EXPLANATIONS` for a cell that is not fine; empty when there is none."""
     facts = traits(method)
     # Without spin `kerr_like` is Schwarzschild: what fails there is its method.
@@ -132,12 +132,12 @@ def _told(found: Judgement) -> str:
     return " ".join(part for part in (found.note, error) if part)
 
 
-def _count(judgements: Judgements, method: Method) -> int:
+def _count(judgements: Judgements, method: Combination) -> int:
     """How many cases apply to it."""
     return sum(judgements[case.key, method.name].verdict != NOT_APPLICABLE for case in CASES)
 
 
-def _share(judgements: Judgements, method: Method) -> str:
+def _share(judgements: Judgements, method: Combination) -> str:
     fine = sum(judgements[case.key, method.name].verdict == FINE for case in CASES)
     return f"{fine} of {_count(judgements, method)}"
 
@@ -160,15 +160,15 @@ def _viewer(judgements: Judgements) -> str:
 
 def _integrators(judgements: Judgements) -> str:
     text = "Cases that are fine of those that apply, for marched models with their own step control. Where a model is an approximation no integrator helps."
-    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), lambda model, key: Method(model, key, traits(Method(model)).step_control))
+    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), lambda model, key: Combination(model, key, traits(Combination(model)).step_control))
 
 
 def _step_controls(judgements: Judgements) -> str:
     text = "The same with the integrator `dopri5`, which has the error estimate that `embedded` needs."
-    return _grid(judgements, "Step controls", text, catalogue.keys("step_control"), lambda model, key: Method(model, "dopri5", key))
+    return _grid(judgements, "Step controls", text, catalogue.keys("step_control"), lambda model, key: Combination(model, "dopri5", key))
 
 
-def _grid(judgements: Judgements, title: str, text: str, keys: Sequence[str], method_of: Callable[[str, str], Method]) -> str:
+def _grid(judgements: Judgements, title: str, text: str, keys: Sequence[str], method_of: Callable[[str, str], Combination]) -> str:
     """How many cases are fine for every marched model with every one of `keys`; a dash where the two do not fit."""
     every = methods()
     lines = [f"## {title}", "", text, "", _row("model", (f"`{key}`" for key in keys)), _row("---", ["---:"] * len(keys))]

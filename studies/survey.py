@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from blackhole_gl import listed_rays
 from blackhole_gl.listed_rays import TracedRays
-from blackhole_gl.measure.methods import Method, exact_for, refined, sensible
+from blackhole_gl.measure.methods import Combination, exact_for, sensible, worth_refining
 from blackhole_gl.measure.scenes import ChartScene, chart_scenes
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue
@@ -21,7 +21,7 @@ def survey(renderer: Renderer, kept: Kept, quick: bool = False, progress: Callab
         progress: called with the share done (0…1) and what is being measured.
     """
     timings = QUICK if quick else FULL
-    work = [(chart_scene, method) for chart_scene in chart_scenes(quick) for method in (*sensible(chart_scene.scene, chart_scene.whole), *refined(chart_scene.scene, quick))]
+    work = [(chart_scene, method) for chart_scene in chart_scenes(quick) for method in (*sensible(chart_scene.scene, chart_scene.whole), *worth_refining(chart_scene.scene, quick))]
     twins: dict[tuple[str, str, tuple], TracedRays | None] = {}
     rows: list[Row] = []
     for done, (chart_scene, method) in enumerate(work):
@@ -40,7 +40,7 @@ def survey(renderer: Renderer, kept: Kept, quick: bool = False, progress: Callab
     return rows
 
 
-def own_twin(chart_scene: ChartScene, method: Method) -> TracedRays | None:
+def own_twin(chart_scene: ChartScene, method: Combination) -> TracedRays | None:
     """The rays by the method's own float64 twin; None where the model is exact for the scene, so that its twin is the truth itself."""
     if exact_for(catalogue.plug_ins("ray_model")[method.model], chart_scene.scene):
         return None

@@ -1,4 +1,4 @@
-"""The measurements as CSV: the whole table for readers, and the part of it that plan.py reads."""
+"""The measurements as CSV: the whole table for readers, and the part of it that the plan reads."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from datetime import date
 from pathlib import Path
 
 from blackhole_gl.output.files import write_whole
-from studies.measure import COLUMNS, CONTRACT, Row
+from blackhole_gl.plan import measured
+from studies.measure import COLUMNS, Row
 
 _DIGITS = 5
 
@@ -66,8 +67,8 @@ def write(path: Path, rows: Sequence[Row], where: Origin, columns: Sequence[str]
 
 
 def write_contract(path: Path, rows: Sequence[Row], where: Origin) -> None:
-    """Writes the columns that plan.py reads. Variants of closed models are left out: the plan knows their plain form."""
-    write(path, [row for row in rows if not row.variant], where, CONTRACT)
+    """Writes the columns that the plan reads. Variants of closed models are left out: the plan knows their plain form."""
+    write(path, [row for row in rows if not row.variant], where, measured.COLUMNS)
 
 
 def write_records(path: Path, header: Sequence[str], records: Iterable[Sequence[object]], where: Origin) -> None:

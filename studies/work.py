@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
-from blackhole_gl.measure.methods import Method
+from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene
 from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import catalogue
@@ -51,13 +51,13 @@ class Kept:
             file.write(json.dumps({"key": key, "rows": [asdict(row) for row in self._groups[key]]}) + "\n")
 
 
-def key_of(chart_scene: ChartScene, method: Method, settings: tuple[float, ...], timings: Timings) -> str:
+def key_of(chart_scene: ChartScene, method: Combination, settings: tuple[float, ...], timings: Timings) -> str:
     """What the group's rows depend on, as a short text."""
     parts = [chart_scene.name, chart_scene.count, sorted(chart_scene.scene.values().items()), method, settings, timings, _shader_text(method)]
     return hashlib.sha256(repr(parts).encode()).hexdigest()[:24]
 
 
-def _shader_text(method: Method) -> str:
+def _shader_text(method: Combination) -> str:
     files = [shaders_dir() / "trace.frag", *sorted((shaders_dir() / "common").glob("*.glsl"))]
     for slot, key in (("ray_model", method.model), ("integrator", method.integrator), ("step_control", method.step_control)):
         if key:

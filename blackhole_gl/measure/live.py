@@ -17,7 +17,7 @@ from ..scene import Scene
 from ..worker import Worker
 from . import timing
 from .errors import compare
-from .methods import Method, sensible
+from .methods import Combination, sensible
 from .scenes import NEAR_CRITICAL, ChartScene, is_physical
 
 RAYS = 200
@@ -38,7 +38,7 @@ class LivePoint:
         evaluations: of the right-hand side, mean over the rays.
     """
 
-    method: Method
+    method: Combination
     setting: float
     error: float
     pixels: float
@@ -78,7 +78,7 @@ class Live:
         settings = [(rank, method, setting) for method in methods for rank, setting in enumerate(method.settings(quick=True))]
         self._left = [(method, setting) for _, method, setting in sorted(settings, key=lambda item: item[0])]
         self._count = len(self._left)
-        self._compiled: set[Method] = set()
+        self._compiled: set[Combination] = set()
         self._truth: Future[_Truth] | None = None
         self._bits: Iterator[None] = iter(())
 
@@ -127,7 +127,7 @@ class Live:
             self._truth.cancel()
         self._left = []
 
-    def _measure(self, renderer: Renderer, method: Method, setting: float, truth: _Truth) -> Iterator[None]:
+    def _measure(self, renderer: Renderer, method: Combination, setting: float, truth: _Truth) -> Iterator[None]:
         """One point; pauses after every bit."""
         scene = method.applied(self.scene, setting)
         made, flat = plan.plan(scene), plan.plan(timing.flat_scene(self.scene))

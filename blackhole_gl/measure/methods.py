@@ -31,8 +31,8 @@ MAX_STEPS = 8192
 
 
 @dataclass(frozen=True)
-class Method:
-    """One way to trace; `integrator` and `step_control` are empty for closed models.
+class Combination:
+    """A ray model, an integrator and a step control that go together: a method but for its step. The last two are empty for closed models.
 
     Attributes:
         changes: switches of a closed model that are not as they come, as (key, value) pairs.
@@ -94,21 +94,21 @@ class Method:
         return scene.with_values({**self.values(setting), "rays.orders": 3})
 
 
-def sensible(scene: Scene, whole: bool = True) -> list[Method]:
+def sensible(scene: Scene, whole: bool = True) -> list[Combination]:
     """The methods worth measuring for `scene`, in the catalogue's order.
 
     A model that is exact for the scene's hole is tried with every integrator (and its own step control) and every step control (and
     the best integrator that fits), or, unless `whole`, with the best of both; any other model has a floor that no integrator lowers,
     and is tried once. A header with ``charted = false`` keeps a model out: one that is not about a hole.
     """
-    found: dict[Method, None] = {}
+    found: dict[Combination, None] = {}
     for model in catalogue.plug_ins("ray_model").values():
         if model.traits.charted:
             found |= dict.fromkeys(_methods_of(model, scene, whole))
     return list(found)
 
 
-def refined(scene: Scene, quick: bool = False) -> list[Method]:
+def worth_refining(scene: Scene, quick: bool = False) -> list[Combination]:
     """The methods worth measuring with refinement for `scene`.
 
     Those that the plan may come to: the model made for this kind of hole, marched in Mino time by its separated equations (any other march
@@ -119,7 +119,7 @@ def refined(scene: Scene, quick: bool = False) -> list[Method]:
     models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and _is_separated(model) and model.traits.spins == spins]
     integrators = _BEST if spins and not quick else ("rk4",)
     marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits.step_control])]
-    closed = [Method(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits.kind == "closed"]
+    closed = [Combination(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits.kind == "closed"]
     return [replace(method, refined=True) for method in marched + closed]
 
 
@@ -128,10 +128,10 @@ def _is_separated(model: PlugIn) -> bool:
     return model.traits.marches_in == "mino" and model.traits.second_order
 
 
-def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Method]:
+def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Combination]:
     if model.traits.kind == "closed":
-        yield Method(model.key)
-        yield from (Method(model.key, changes=((key, not item.default),)) for key, item in model.parameters.items() if item.kind == "switch")
+        yield Combination(model.key)
+        yield from (Combination(model.key, changes=((key, not item.default),)) for key, item in model.parameters.items() if item.kind == "switch")
         return
     own = model.traits.step_control
     if not exact_for(model, scene):
@@ -155,10 +155,10 @@ def exact_for(model: PlugIn, scene: Scene) -> bool:
     return model.traits.exact and model.traits.space_time != "flat" and (model.traits.spins or scene.hole.spin == 0.0)
 
 
-def _fitting(model: str, integrators: Iterable[str], controls: Iterable[str]) -> Iterator[Method]:
+def _fitting(model: str, integrators: Iterable[str], controls: Iterable[str]) -> Iterator[Combination]:
     for integrator in integrators:
         for control in controls:
             if not catalogue.reasons_against(model, integrator, control):
-                yield Method(model, integrator, control)
+                yield Combination(model, integrator, control)
 
 

@@ -17,14 +17,14 @@ _ROUNDS = 7
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """What was measured: error in pixels at 99 % of the pixels, and cost in flat frames."""
+class Actual:
+    """What a prediction is held against: error in pixels at 99 % of the pixels, and cost in flat frames."""
 
     error_px: float
     cost: float
 
 
-def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
+def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Actual:
     """Error and cost of the plan for `scene`, measured as the chart does.
 
     Raises:
@@ -37,7 +37,7 @@ def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Outcome:
     errors = compare(found, place.truth, place.epsilon >= NEAR_CRITICAL)
     work = {"plan": plan.plan(stated), "flat": plan.plan(timing.flat_scene(stated))}
     cost = timing.interleaved(renderer, work, _SIZE, "flat", _ROUNDS)["plan"].ratio
-    return Outcome(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
+    return Actual(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
 
 
 def measured_refined(renderer: Renderer, scene: Scene, pixels: int = 2000) -> choice.Refinement:

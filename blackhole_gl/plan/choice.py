@@ -5,15 +5,15 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 from ..physics.space_time import ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
+from .measured import Measured, Method, read
 
 AUTO = "auto"
 
@@ -33,66 +33,6 @@ _SAME = 0.02
 _PLAIN_ANGLE, _PLAIN_LENGTH = 0.2, 0.1
 
 _TRIAL_ANGLE, _TRIAL_LENGTH = 0.4, 0.5
-
-
-@dataclass(frozen=True)
-class Method:
-    """A way to trace. Steps it does not have are 0: Δt₀ in r_s, κ in radians, tolerance of an adaptive control in radians a step."""
-
-    model: str
-    integrator: str
-    step_control: str
-    step_length: float
-    step_angle: float
-    step_tolerance: float
-
-    def __str__(self) -> str:
-        settings = [f"{name} = {value:.3g}" for name, value in (("Δt₀", self.step_length), ("κ", self.step_angle), ("tolerance", self.step_tolerance)) if value]
-        return ", ".join([name for name in (self.model, self.integrator, self.step_control) if name] + settings)
-
-    @property
-    def kind(self) -> tuple[str, str, str]:
-        """The method but for its step."""
-        return self.model, self.integrator, self.step_control
-
-
-@dataclass(frozen=True)
-class Measured:
-    """One row of the chart's table: a method in a scene.
-
-    Attributes:
-        spin, distance, inclination_deg, fov_deg: of the measured scene.
-        direction_99: error of the escape direction in radians at 99 % of the rays.
-        crossing_r_99: relative error of the crossing radii at 99 %.
-        wrong_fates: share of rays.
-        cost: trace time as a ratio to the flat frame of the same size.
-        refined: whether the hit map was refined, as it is while the camera moves; size and tolerance are then `REFINED_SIZE` and `REFINED_TOLERANCE`.
-        cost_unrefined: of a refined row: what a ray for every pixel costs at that size; 0 otherwise.
-    """
-
-    scene: str
-    spin: float
-    distance: float
-    inclination_deg: float
-    fov_deg: float
-    model: str
-    integrator: str
-    step_control: str
-    step_length: float
-    step_angle: float
-    step_tolerance: float
-    direction_99: float
-    crossing_r_99: float
-    wrong_fates: float
-    evaluations: float
-    cost: float
-    refined: bool
-    cost_unrefined: float
-
-    @cached_property
-    def method(self) -> Method:
-        """What tells methods apart, refinement left aside."""
-        return Method(self.model, self.integrator, self.step_control, self.step_length, self.step_angle, self.step_tolerance)
 
 
 @dataclass(frozen=True)
@@ -188,7 +128,7 @@ def is_open(scene: Scene) -> bool:
 def predictions(scene: Scene) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states."""
     for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
-        yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost)
+        yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
 
 
 @lru_cache(maxsize=64)
@@ -200,7 +140,7 @@ def _candidates(near: tuple[str, ...], rays: Rays, spins: bool, has_things: bool
     by_method: dict[Method, list[Measured]] = {}
     for row in _measured_in(near):
         if not row.refined and _fits(rays, spins, has_things, row):
-            by_method.setdefault(row.method, []).append(row)
+            by_method.setdefault(row.stated, []).append(row)
     return tuple((method, tuple(rows)) for method, rows in by_method.items() if len(rows) == len(near) and all(row.wrong_fates <= _WRONG_FATES for row in rows))
 
 
@@ -212,8 +152,8 @@ def refinement(scene: Scene) -> Refinement | None:
     near, method = _nearest_scenes(scene), _stated_method(scene)
     rows: dict[tuple[str, bool], Measured] = {}
     for row in _measured_in(near):
-        if row.method == method:
-            rows[row.scene, row.refined] = row
+        if row.stated == method:
+            rows[row.scene, bool(row.refined)] = row
     if len(rows) < 2 * len(near):
         return None
     nearest = rows[near[0], True]
@@ -223,7 +163,7 @@ def refinement(scene: Scene) -> Refinement | None:
     # Interpolation's error goes as the second derivative, which falls as the square of the distance to the critical curve: pixels with rays
     # of their own grow as 1/√tolerance. They are taken for all of the cost but a flat frame's: rather too much than too little.
     more = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
-    return Refinement(error, 1.0 + (nearest.cost - 1.0) * more, nearest.cost_unrefined)
+    return Refinement(error, 1.0 + (nearest.cost_flat_ratio - 1.0) * more, nearest.cost_unrefined)
 
 
 def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> float:
@@ -256,7 +196,7 @@ def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PI
 def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, direction: float, crossing_r: float) -> float:
     """As `error_px`, for the disk of `scene` seen by another camera."""
     pixel = math.radians(fov_deg) / height
-    if not scene.disk.enabled or math.isinf(distance):
+    if not scene.disk.enabled or math.isinf(distance) or math.isnan(crossing_r):
         return direction / pixel
     outer = scene.disk.outer_radius
     return max(direction, crossing_r * outer / max(distance, outer)) / pixel
@@ -268,9 +208,7 @@ def measurements() -> tuple[Measured, ...]:
     path = assets_dir() / "measurements.csv"
     if not path.is_file():
         return ()
-    with open(path, newline="", encoding="utf-8") as file:
-        records = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    return tuple(row for record in records if (row := _measured(record)) is not None)
+    return tuple(row for row in read(path) if row.model in catalogue.keys("ray_model"))
 
 
 def forget_choices() -> None:
@@ -291,18 +229,6 @@ def _by_scene() -> dict[str, list[Measured]]:
 def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
     for name in scenes:
         yield from _by_scene()[name]
-
-
-def _measured(record: dict[str, str]) -> Measured | None:
-    """A row; None where it lacks what a choice needs."""
-    if record["model"] not in catalogue.keys("ray_model") or not record["direction_99"] or not record["cost_flat_ratio"]:
-        return None
-    numbers = {name: float(record[name]) for name in ("spin", "distance", "inclination_deg", "fov_deg")}
-    errors = {name: float(record[name] or 0.0) for name in ("step_length", "step_angle", "step_tolerance", "direction_99", "crossing_r_99", "wrong_fates", "evaluations")}
-    names = {name: record[name] for name in ("scene", "model", "integrator", "step_control")}
-    # tables from before there was refinement lack its columns
-    refined, cost_unrefined = record.get("refined") == "1", float(record.get("cost_unrefined") or 0.0)
-    return Measured(**names, **numbers, **errors, cost=float(record["cost_flat_ratio"]), refined=refined, cost_unrefined=cost_unrefined)
 
 
 def _not_measured(scene: Scene) -> str:

@@ -75,7 +75,7 @@ def test_nothing_is_ever_not_finite() -> None:
 
 
 @pytest.mark.parametrize("method", DEFAULTS, ids=lambda method: method.model)
-def test_default_methods_do_what_the_page_says(renderer: Renderer, method: stability.Method) -> None:
+def test_default_methods_do_what_the_page_says(renderer: Renderer, method: stability.Combination) -> None:
     differing = [line for case in CASES if (line := _difference(renderer, case, method))]
     assert differing == [], RENEW
 
@@ -96,7 +96,7 @@ def test_the_viewer_does_what_the_page_says(renderer: Renderer, case) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("method", [method for method in METHODS.values() if method not in DEFAULTS], ids=lambda method: method.name)
-def test_every_other_method_does_what_the_page_says(renderer: Renderer, method: stability.Method) -> None:
+def test_every_other_method_does_what_the_page_says(renderer: Renderer, method: stability.Combination) -> None:
     assert [line for case in CASES if (line := _difference(renderer, case, method))] == [], RENEW
 
 
@@ -111,7 +111,7 @@ def test_the_largest_pictures(renderer: Renderer, case) -> None:
 @pytest.mark.slow
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("method", DEFAULTS, ids=lambda method: method.model)
-def test_a_million_random_rays(renderer: Renderer, method: stability.Method) -> None:
+def test_a_million_random_rays(renderer: Renderer, method: stability.Combination) -> None:
     """Whole sky, whole range of holes and cameras: no more is unresolved than the page states, and nothing is not finite."""
     judgement = stability.sweep(renderer, method, 1_000_000)
     assert judgement.verdict == STORED["sweep", method.name].verdict, judgement
@@ -142,7 +142,7 @@ def test_what_skipping_the_observers_frame_would_cost(distance: float, excess: f
     assert skipped / relativity.schwarzschild_shadow_angle(distance) - 1.0 == pytest.approx(excess, rel=0.05)
 
 
-def _difference(renderer: Renderer, case, method: stability.Method) -> str:
+def _difference(renderer: Renderer, case, method: stability.Combination) -> str:
     """How a new run of a cell differs from the stored one; empty when it does not. Degraded and failed count alike: drivers round in their own ways."""
     stored = STORED[case.key, method.name]
     found = stability.run(renderer, case, method, SWEEP_RAYS if stability.is_default(method) else stability.OTHER_SWEEP_RAYS)

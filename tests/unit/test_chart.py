@@ -14,10 +14,10 @@ from blackhole_gl import listed_rays, plan
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure import errors, live, refined
 from blackhole_gl.measure import methods as chart_methods
-from blackhole_gl.measure.methods import Method, exact_for, sensible
+from blackhole_gl.measure.methods import Combination, exact_for, sensible
 from blackhole_gl.measure.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
 from blackhole_gl.physics import relativity
-from blackhole_gl.plan import choice
+from blackhole_gl.plan import choice, measured
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 from studies import critical, finest, measure, page, pareto, pictures, run, sizes, table, validation
@@ -37,13 +37,13 @@ def near() -> ChartScene:
 @pytest.fixture(scope="module")
 def row(renderer: Renderer, near: ChartScene) -> measure.Row:
     """One measured row."""
-    return measure.measure(renderer, near, Method("kerr", "rk4", "mino"), (0.1,), TINY, None)[0]
+    return measure.measure(renderer, near, Combination("kerr", "rk4", "mino"), (0.1,), TINY, None)[0]
 
 
 @pytest.fixture(scope="module")
 def refined_row(renderer: Renderer, near: ChartScene) -> measure.Row:
     """The same with a refined map."""
-    return measure.measure(renderer, near, Method("kerr", "rk4", "mino", refined=True), (0.1,), TINY, None)[0]
+    return measure.measure(renderer, near, Combination("kerr", "rk4", "mino", refined=True), (0.1,), TINY, None)[0]
 
 
 def test_issue_3_asks_for_twelve_methods_five_settings_and_four_scenes() -> None:
@@ -147,7 +147,7 @@ def test_a_row_of_exact_kerr(row: measure.Row, near: ChartScene) -> None:
 
 
 def test_a_wrong_force_law_shows_against_the_truth_and_not_against_its_own_twin(renderer: Renderer, near: ChartScene) -> None:
-    method = Method("post_newtonian", "rk4", "radius")
+    method = Combination("post_newtonian", "rk4", "radius")
     twin = own_twin(near, method)
     coarse, fine = measure.measure(renderer, near, method, (0.3, 0.15), TINY, twin)
     assert coarse.direction_median == pytest.approx(fine.direction_median, rel=0.05)
@@ -157,7 +157,7 @@ def test_a_wrong_force_law_shows_against_the_truth_and_not_against_its_own_twin(
 
 
 def test_broken_off_measurements_go_on(tmp_path: Path, row: measure.Row, near: ChartScene) -> None:
-    method = Method("kerr", "rk4", "mino")
+    method = Combination("kerr", "rk4", "mino")
     key = key_of(near, method, (0.1,), TINY)
     Kept(tmp_path).put(key, [row])
     with open(tmp_path / "rows.jsonl", "a", encoding="utf-8") as file:
@@ -171,7 +171,7 @@ def test_broken_off_measurements_go_on(tmp_path: Path, row: measure.Row, near: C
 def test_tables_survive_the_way_through_a_file(tmp_path: Path, row: measure.Row) -> None:
     table.write_contract(tmp_path / "m.csv", [row, replace(row, variant="second_order off")], WHERE)
     (record,) = table.read(tmp_path / "m.csv")
-    assert tuple(record) == measure.CONTRACT
+    assert tuple(record) == measured.COLUMNS
     assert record["model"] == "kerr" and record["step_length"] == "" and float(record["step_angle"]) == 0.1
     assert float(record["direction_99"]) == pytest.approx(row.direction_99, rel=1e-4)
     assert (tmp_path / "m.csv").read_text().startswith("# a machine; a renderer; commit abc")
@@ -180,7 +180,7 @@ def test_tables_survive_the_way_through_a_file(tmp_path: Path, row: measure.Row)
 def test_the_contract_with_the_plan() -> None:
     stated = "scene,spin,distance,inclination_deg,fov_deg,model,integrator,step_control,step_length,step_angle,direction_median,direction_99,direction_worst,"
     stated += "crossing_r_99,g_99,wrong_fates,evaluations,cost_flat_ratio"
-    assert ",".join(measure.CONTRACT).startswith(stated)
+    assert ",".join(measured.COLUMNS).startswith(stated)
 
 
 def test_validation_of_s1_holds(renderer: Renderer) -> None:
@@ -211,7 +211,7 @@ def test_near_the_critical_curve_errors_grow(renderer: Renderer, near: ChartScen
 
 def test_the_chart_s_rays_are_those_of_pixels(renderer: Renderer, near: ChartScene) -> None:
     """Of the picture that refined maps are measured in, so that both share one truth."""
-    scene = Method("kerr", "rk4", "mino").applied(near.scene, 0.1)
+    scene = Combination("kerr", "rk4", "mino").applied(near.scene, 0.1)
     width, height = choice.REFINED_SIZE
     assert near.pixels.min() >= 0 and np.all(near.pixels < (width, height)) and len(np.unique(near.pixels, axis=0)) > 90
     renderer.time_trace(plan.plan(scene), choice.REFINED_SIZE)
@@ -243,10 +243,10 @@ def test_refinement_is_measured_whether_or_not_the_plan_uses_it(monkeypatch: pyt
 
 def test_what_the_plan_may_choose_is_also_measured_refined() -> None:
     for item in chart_scenes():
-        found = chart_methods.refined(item.scene)
+        found = chart_methods.worth_refining(item.scene)
         chosen = choice.choose(item.scene).chosen.method
         if chosen.step_angle and not item.whole:  # marched; in the others any integrator is tried
-            assert Method(chosen.model, chosen.integrator, chosen.step_control, refined=True) in found
+            assert Combination(chosen.model, chosen.integrator, chosen.step_control, refined=True) in found
             assert chosen.step_angle in found[0].settings()
         for method in found:
             assert exact_for(catalogue.plug_ins("ray_model")[method.model], item.scene) and method.refined
@@ -296,8 +296,8 @@ def test_without_matplotlib_the_install_line_is_named(monkeypatch: pytest.Monkey
 
 def test_the_shipped_table_is_one_the_chart_wrote() -> None:
     records = table.read(Path(__file__).resolve().parents[2] / "assets" / "measurements.csv")
-    before_refinement = measure.CONTRACT[: measure.CONTRACT.index("refined")]
-    assert tuple(records[0]) in (measure.CONTRACT, before_refinement)
+    before_refinement = measured.COLUMNS[: measured.COLUMNS.index("refined")]
+    assert tuple(records[0]) in (measured.COLUMNS, before_refinement)
     assert set(SHOWN) <= {record["scene"] for record in records}
     assert len({(r["model"], r["integrator"], r["step_control"]) for r in records}) >= 12
 
@@ -319,7 +319,7 @@ def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer) -> None:
         if len(measured.points) >= 2:
             break
     point = measured.points[0]
-    assert (point.method, point.setting) == (Method("kerr", "rk4", "mino"), 0.8)
+    assert (point.method, point.setting) == (Combination("kerr", "rk4", "mino"), 0.8)
     assert point.cost > 0.0 and point.pixels == pytest.approx(point.error / math.radians(42.0 / 1080.0))
     assert 0.0 < measured.share < 1.0
     taken = plan.plan(presets.load(["kerr"]).with_values(point.method.values(point.setting)))
@@ -340,5 +340,5 @@ def test_the_live_chart_of_art_says_that_there_is_no_truth() -> None:
 
 def test_another_method_is_no_other_view() -> None:
     scene = presets.load(["kerr"])
-    assert live.view_of(scene) == live.view_of(scene.with_values(Method("kerr", "euler", "mino").values(0.1)))
+    assert live.view_of(scene) == live.view_of(scene.with_values(Combination("kerr", "euler", "mino").values(0.1)))
     assert live.view_of(scene) != live.view_of(scene.with_values({"camera.distance": 21.0}))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 
 from blackhole_gl import plan, resources
-from blackhole_gl.plan import choice
+from blackhole_gl.plan import choice, measured
 from blackhole_gl.scene import Scene, presets
 
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and presets.load([info.name]).hole.gravity_strength == 1.0]
@@ -107,15 +107,20 @@ CAMERA = KERR.camera
 PIXEL = math.radians(CAMERA.fov_deg) / 720.0
 """Of `choice.REFINED_SIZE` in that scene, rad."""
 
-MARCHED = choice.Measured("here", KERR.hole.spin, CAMERA.distance, CAMERA.inclination_deg, CAMERA.fov_deg, "kerr", "rk4", "mino", 0.0, 0.2, 0.0, 0.1 * PIXEL, 0.0, 0.0, 80.0, 5.0, False, 0.0)
-REFINED = replace(MARCHED, direction_99=0.3 * PIXEL, evaluations=13.0, cost=3.0, refined=True, cost_unrefined=10.0)
+MARCHED = measured.Measured(
+    **{"scene": "here", "spin": KERR.hole.spin, "distance": CAMERA.distance, "inclination_deg": CAMERA.inclination_deg, "fov_deg": CAMERA.fov_deg},
+    **{"model": "kerr", "integrator": "rk4", "step_control": "mino", "step_length": math.nan, "step_angle": 0.2, "step_tolerance": math.nan},
+    **{"direction_median": 0.0, "direction_99": 0.1 * PIXEL, "direction_worst": 0.0, "crossing_r_99": 0.0, "g_99": 0.0, "wrong_fates": 0.0},
+    **{"evaluations": 80.0, "cost_flat_ratio": 5.0, "refined": 0, "cost_unrefined": math.nan},
+)
+REFINED = replace(MARCHED, direction_99=0.3 * PIXEL, evaluations=13.0, cost_flat_ratio=3.0, refined=1, cost_unrefined=10.0)
 
 
 @pytest.fixture
-def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
+def stored(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     """A call that puts rows in the place of the stored table."""
 
-    def put(*rows: choice.Measured) -> None:
+    def put(*rows: measured.Measured) -> None:
         monkeypatch.setattr(choice, "measurements", lambda: rows)
         plan.forget_measurements()
 
@@ -124,23 +129,23 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     plan.forget_measurements()
 
 
-def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(measured):
-    measured(MARCHED, replace(REFINED, cost=0.1, direction_99=0.0))
+def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(stored):
+    stored(MARCHED, replace(REFINED, cost_flat_ratio=0.1, direction_99=0.0))
     made = choice.choose(KERR)
-    assert made.chosen.cost == MARCHED.cost and made.chosen.error_px == pytest.approx(0.15)  # a pixel of 1080 is two thirds of one of 720
+    assert made.chosen.cost == MARCHED.cost_flat_ratio and made.chosen.error_px == pytest.approx(0.15)  # a pixel of 1080 is two thirds of one of 720
     assert made.runner_up is None
 
 
-def test_what_refinement_costs_and_errs_is_that_of_the_chosen_method(measured):
-    measured(MARCHED, REFINED, replace(REFINED, integrator="dopri5", cost=0.1))
+def test_what_refinement_costs_and_errs_is_that_of_the_chosen_method(stored):
+    stored(MARCHED, REFINED, replace(REFINED, integrator="dopri5", cost_flat_ratio=0.1))
     found = choice.refinement(choice.choose(KERR).scene)
     assert (found.cost, found.cost_unrefined) == (3.0, 10.0) and found.error_px == pytest.approx(0.3)
     assert str(found) == "0.3 px at 3 flat frames of 1280×720 against 10 for every pixel"
 
 
-def test_a_tighter_tolerance_interpolates_less(measured):
+def test_a_tighter_tolerance_interpolates_less(stored):
     """The march's 0.1 px stay; of interpolation's 0.2 a fifth is left, and more pixels have rays of their own."""
-    measured(MARCHED, REFINED)
+    stored(MARCHED, REFINED)
     scene = choice.choose(KERR.with_values({"rays.tolerance": 0.1})).scene
     found = choice.refinement(scene)
     assert found.error_px == pytest.approx(0.14)
@@ -149,34 +154,33 @@ def test_a_tighter_tolerance_interpolates_less(measured):
     assert loose.cost == 3.0, "what was not measured is not hoped for"
 
 
-def test_between_two_measured_scenes_the_worse_is_believed(measured):
+def test_between_two_measured_scenes_the_worse_is_believed(stored):
     """There a pixel is half as large: the march's angle is twice as many of them, which is no matter here, and interpolation adds 0.4 px."""
     there = {"scene": "there", "distance": 60.0, "fov_deg": 0.5 * CAMERA.fov_deg}
-    measured(MARCHED, REFINED, replace(MARCHED, **there), replace(REFINED, **there, cost=4.0))
+    stored(MARCHED, REFINED, replace(MARCHED, **there), replace(REFINED, **there, cost_flat_ratio=4.0))
     scene = KERR.with_values({"camera.distance": 24.0})
     assert choice._nearest_scenes(scene) == ("here", "there")
     found = choice.refinement(choice.choose(scene).scene)
     assert found.error_px == pytest.approx(0.1 + 0.4) and found.cost == 3.0
-    measured(MARCHED, REFINED, replace(MARCHED, **there))
+    stored(MARCHED, REFINED, replace(MARCHED, **there))
     assert choice.refinement(choice.choose(scene).scene) is None, "measured in one of the two only"
 
 
-def test_refined_maps_with_wrong_fates_keep_no_tolerance(measured):
-    measured(MARCHED, replace(REFINED, wrong_fates=0.02))
+def test_refined_maps_with_wrong_fates_keep_no_tolerance(stored):
+    stored(MARCHED, replace(REFINED, wrong_fates=0.02))
     assert choice.refinement(choice.choose(KERR).scene).error_px == math.inf
 
 
 @pytest.mark.parametrize("values", [{"rays.step_angle": 0.1}, {"hole.gravity_strength": 2.0}, {"rays.model": "schwarzschild_table", "hole.spin": 0.0}])
-def test_refinement_that_was_not_measured_is_not_made_up(measured, values):
-    measured(MARCHED, REFINED)
+def test_refinement_that_was_not_measured_is_not_made_up(stored, values):
+    stored(MARCHED, REFINED)
     assert choice.refinement(choice.choose(KERR.with_values(values)).scene) is None
 
 
 def test_tables_without_refinement_are_read_as_such():
-    old = {name: "" for name in ("step_length", "step_tolerance", "crossing_r_99")}
-    old |= {name: str(getattr(MARCHED, name)) for name in ("scene", "spin", "distance", "inclination_deg", "fov_deg", "model", "integrator", "step_control")}
-    old |= {"step_angle": "0.2", "direction_99": repr(MARCHED.direction_99), "wrong_fates": "0", "evaluations": "80", "cost_flat_ratio": "5"}
-    assert choice._measured(old) == MARCHED
-    assert choice._measured(old | {"refined": "0", "cost_unrefined": ""}) == MARCHED
-    new = choice._measured(old | {"refined": "1", "cost_unrefined": "10"})
-    assert new.refined and new.cost_unrefined == 10.0 and new.method == MARCHED.method
+    marched = {name: value for name, value in asdict(MARCHED).items() if name not in ("refined", "cost_unrefined")}
+    old = {name: "" if value != value else str(value) for name, value in marched.items()}
+    assert repr(measured.from_texts(old)) == repr(MARCHED)
+    assert repr(measured.from_texts(old | {"refined": "0", "cost_unrefined": ""})) == repr(MARCHED)
+    new = measured.from_texts(old | {"refined": "1", "cost_unrefined": "10"})
+    assert new.refined and new.cost_unrefined == 10.0 and new.stated == MARCHED.stated
