@@ -83,7 +83,14 @@ class Row(Measured):
 COLUMNS = tuple(item.name for item in record_fields(Row))
 
 
-def measure(renderer: Renderer, chart_scene: ChartScene, method: Combination, settings: tuple[float, ...], timings: Timings, twin: listed_rays.TracedRays | None) -> list[Row]:
+def measure(
+    renderer: Renderer,
+    chart_scene: ChartScene,
+    method: Combination,
+    settings: tuple[float, ...],
+    timings: Timings,
+    twin: listed_rays.TracedRays | None,
+) -> list[Row]:
     """A row for each of `settings`.
 
     Args:

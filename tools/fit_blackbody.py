@@ -73,7 +73,7 @@ def fitted(exact: np.ndarray) -> np.ndarray:
     numbers = np.concatenate([first_guess(exact[:, 0]), first_guess(exact[:, 2])])
     weights, best = np.ones((len(exact), 4)), numbers
     for _ in range(ROUNDS):
-        numbers = least_squares(lambda n: (weights * errors(n, exact)).ravel(), numbers, x_scale=np.abs(numbers)).x
+        numbers = least_squares(lambda n, w: (w * errors(n, exact)).ravel(), numbers, x_scale=np.abs(numbers), args=(weights,)).x
         size = np.abs(errors(numbers, exact))
         if size.max() < np.abs(errors(best, exact)).max():
             best = numbers
@@ -89,7 +89,8 @@ def main() -> None:
     for name, (a, b, c, d, e) in zip(("red", "blue"), numbers.reshape(2, 5)):
         print(f"{name}: (({a} * t + {b}) * t + {c}) / ((t + {d}) * t + {e})")
     found = colours(numbers)
-    print("largest errors: chromaticity", np.abs(chromaticity(found) - chromaticity(exact)).max(), "grey levels", np.abs(grey_levels(found) - grey_levels(exact)).max(0))
+    of_chromaticity, of_grey = (np.abs(measure(found) - measure(exact)) for measure in (chromaticity, grey_levels))
+    print("largest errors: chromaticity", of_chromaticity.max(), "grey levels", of_grey.max(0))
 
 
 if __name__ == "__main__":

@@ -26,20 +26,20 @@ uniform vec2 radii;
 uniform vec2 footprint;
 out vec4 o;
 void main() {
-    vec2 place = gl_FragCoord.xy / vec2(%d.0, %d.0);
+    vec2 place = gl_FragCoord.xy / vec2(SIZE);
     float phi = mix(azimuths.x, azimuths.y, place.x);
     DiskMatter matter = DiskMatter(mix(radii.x, radii.y, place.y), vec2(cos(phi), sin(phi)), footprint, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
     o = vec4(matter.density);
 }
-""" % (WIDTH, HEIGHT)
+"""
 
 
 @pytest.fixture()
 def density(ctx, tmp_path):
     """(layer, time, azimuths, radii, footprint, uniforms) → density (HEIGHT, WIDTH)."""
     path = tmp_path / "layer.frag"
-    path.write_text(SNIPPET)
+    path.write_text(SNIPPET.replace("SIZE", f"{WIDTH}.0, {HEIGHT}.0"))
 
     def run(layer: str, time: float = 0.0, azimuths=(0.0, 2 * math.pi), radii=(3.2, 9.8), footprint=(2e-3, 2e-3), **uniforms) -> np.ndarray:
         ages, weights, seeds = shear_phases(time)

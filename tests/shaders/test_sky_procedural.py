@@ -23,21 +23,21 @@ uniform float pixel, energy, blur;
 uniform float squeeze;  // how much finer the rays lie along the picture's rows: a lens's magnification
 out vec4 o;
 vec3 ray(vec2 place) {
-    vec2 p = (place - 0.5 * vec2(%d.0, %d.0)) * pixel;
+    vec2 p = (place - 0.5 * vec2(SIZE)) * pixel;
     return normalize(forward + p.x * squeeze * side + p.y * above);
 }
 void main() {
     vec3 d = ray(gl_FragCoord.xy);
     o = vec4(sky_radiance(d, blur * (ray(gl_FragCoord.xy + vec2(1.0, 0.0)) - d), blur * (ray(gl_FragCoord.xy + vec2(0.0, 1.0)) - d), energy), 1.0);
 }
-""" % SIZE
+"""
 
 
 @pytest.fixture(scope="module")
 def sky(ctx, tmp_path_factory):
     """(forward, turn in pixels (right, up), uniforms) → radiance (256, 256, 3)."""
     path = tmp_path_factory.mktemp("sky") / "sky.frag"
-    path.write_text(SNIPPET)
+    path.write_text(SNIPPET.replace("SIZE", f"{SIZE[0]}.0, {SIZE[1]}.0"))
     piece = Piece(ctx, path, chosen={"sky": ["skies/procedural.glsl"]})
 
     def run(forward, turn=(0.0, 0.0), pixel=PIXEL, energy=1.0, blur=1.0, squeeze=1.0, stars=1.0, galaxy=0.0) -> np.ndarray:
