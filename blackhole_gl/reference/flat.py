@@ -44,7 +44,7 @@ def screen_lens(view: View, lens_radius: float = 1.0, lens_shadow: float = 2.598
 
 def straight(view: View, radius: float) -> Traced:
     """The rays of `view` along straight lines that end on a ball of `radius` in r_s."""
-    position, direction = _start_at_infinity(view) if view.at_infinity else _start(view.place, view.rays)
+    position, direction = lines(view)
     along = np.einsum("ij,ij->i", position, direction)
     closest2 = np.maximum(np.einsum("ij,ij->i", position, position) - along**2, 0.0)
     hit = (along < 0.0) & (closest2 < radius**2)
@@ -61,6 +61,11 @@ def straight(view: View, radius: float) -> Traced:
     fate = np.where(hit, CAPTURED, ESCAPED).astype(np.int8)
     zero = np.zeros(len(position), dtype=np.int64)
     return Traced(fate, np.where(hit[:, None], 0.0, direction), zero, np.ones(len(position)), l_z_of_straight_rays(view), crossings)
+
+
+def lines(view: View) -> tuple[Array, Array]:
+    """Where straight rays begin, in r_s, and the unit vectors that they go along, both (N, 3) in the world."""
+    return _start_at_infinity(view) if view.at_infinity else _start(view.place, view.rays)
 
 
 def l_z_of_straight_rays(view: View) -> Array:

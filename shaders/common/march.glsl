@@ -199,6 +199,8 @@ Hits trace_ray(RayStart start) {
     m.crossed = false;
 #if MEETINGS
     m.near = false;
+    vec4 place = path_place(ray_path(orbit, m.s));
+    if (place.w > 0.0) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.s), true, hits);
     // From event to event, whatever it is.
     bool met = false;
     float end;
@@ -208,6 +210,8 @@ Hits trace_ray(RayStart start) {
         if (march_pauses(m)) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
+    place = path_place(ray_path(orbit, m.next));
+    if (m.fate == CAPTURED) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.next), false, hits);
 #else
     march_on(orbit, ORDERS > 0, m);
     float end = march_end(orbit, m);

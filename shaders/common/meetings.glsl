@@ -118,6 +118,11 @@ float meeting_root(Curve curve, Found found) {
     return t;
 }
 
+// A ray that begins inside a medium, at a camera there, has gone into it where it begins; one that ends inside has come out where it ends.
+void meet_at_an_end(vec3 x, Momentum momentum, bool begins, inout Hits hits) {
+#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) add_meeting(hits, MEDIUM_$KEY, i, begins, x, momentum, false);
+}
+
 // All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
 // `point`. Returns whether the ray ends on something opaque.
 bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
@@ -126,6 +131,7 @@ bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, ino
     vec4 a = vec4(x, 1.0), b = vec4(size * v, 0.0);
     Curve line = Curve(Path(a, b - a, vec2(0.0)), Path(b, b - a, vec2(0.0)), 1.0);
     float from = 0.0, to = s_end < 1e29 ? s_end / (size + s_end) : 1.0;
+    meet_at_an_end(x, momentum_at(x, v), true, hits);
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
         Found found = next_meeting(line, from, to);
@@ -135,7 +141,10 @@ bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, ino
             add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
             crosses = false;
         }
-        if (none) return false;
+        if (none) {
+            if (s_end < 1e29) meet_at_an_end(x + s_end * v, momentum_at(x + s_end * v, v), false, hits);
+            return false;
+        }
         vec3 before = curve_point(line, found.before, ignored);
         bool enters = distance_to(found.kind, found.index, before) >= 0.0;
         add_meeting(hits, found.kind, found.index, enters, y, momentum_at(y, v), is_opaque(found.kind));

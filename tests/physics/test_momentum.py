@@ -36,7 +36,7 @@ def test_light_is_null_in_the_metric_that_the_twin_names(model, distance, inclin
         horizon = 1.0 if twin.metric == "schwarzschild" else relativity.horizon_radius(spin if twin.spins else 0.0)
         if distance <= horizon:
             continue
-        found = trace(model, spin=spin, distance=distance, inclination_deg=inclination, azimuth_deg=25.0, directions=rays(120, distance), planes=PLANES)
+        found = trace(model, spin=spin, distance=distance, inclination_deg=inclination, azimuth_deg=25.0, directions=rays(80, distance), planes=PLANES)
         met = found.crossings
         there = ~np.isnan(met.r)
         assert np.array_equal(~np.isnan(met.k_r), there) and np.array_equal(~np.isnan(met.k_theta), there)
@@ -61,7 +61,7 @@ def from_critical_curve(directions: np.ndarray, distance: float, inclination: fl
 
 @pytest.mark.parametrize("spin", [0.0, 0.5, 0.9, 0.998])
 def test_both_forms_of_kerr_give_the_same_momentum(spin):
-    for distance, inclination in CAMERAS[1:]:
+    for distance, inclination in ((2.0, 90.0), (10.0, 60.0), (1000.0, 120.0)):
         directions = rays(100, distance)
         one, two = (trace(model, spin=spin, distance=distance, inclination_deg=inclination, azimuth_deg=25.0, directions=directions, tolerance=3e-13,
                           planes=PLANES) for model in KERR)

@@ -15,6 +15,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
 SHADERS = re.findall(r"`(shaders/\S+\.glsl)`\n\n```glsl\n(.*?)```", PAGE, re.DOTALL)
 PYTHON = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+TWIN_TEXT, LAW_TEXT = PYTHON
+TWIN_FILE = re.search(r"`(blackhole_gl/reference/\S+\.py)`\n\n```python", PAGE)[1]
 TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
 DRAW = """
@@ -45,6 +47,8 @@ for changes in (
     {"disk.spiral": True, "disk.turbulence": False},
     {"rays.model": "kink"},
     {"rays.model": "kink", "camera.distance": float("inf")},
+    {"things.moon.kind": "ball"},
+    {"media.haze.kind": "fog"},
     {"rays.integrator": "midpoint"},
 ):
     assert np.abs(drawn(["kerr"], changes) - plain).max() > 8, changes
@@ -70,6 +74,15 @@ assert edit(text.replace("0.8 : 0.02", "0.5 : 0.5")) == []
 assert np.abs(drawn(["kerr"], {"sky.model": "star_chart", "disk.enabled": False}) - chart).max() > 8
 """
 
+TWIN = """
+from blackhole_gl import listed_rays
+rays = np.stack([np.linspace(0.05, 2.5, 200), np.linspace(-3.0, 3.0, 200)], axis=-1)
+scene = presets.load(["kerr"], {"rays.model": "kink"})
+found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+assert np.array_equal(found.fate, twin.fate) and {1, 2} <= set(twin.fate.tolist())
+assert np.nanmax(np.abs(found.direction - twin.direction)) < 2e-6, "float32"
+"""
+
 LAW = """
 assert np.abs(drawn(["kerr"], {"disk.temperature_law": "constant"}) - plain).max() > 8
 """
@@ -83,8 +96,8 @@ def run(script: str, folder: Path, own: Path) -> None:
 
 
 def test_the_page_has_an_example_of_each_slot() -> None:
-    assert {Path(path).parent.name for path, _ in SHADERS} == {"skies", "disks", "ray_models", "integrators"}
-    assert len(PYTHON) == 1 and len(TOML) == 1
+    assert {Path(path).parent.name for path, _ in SHADERS} == {"skies", "disks", "ray_models", "things", "media", "integrators"}
+    assert len(PYTHON) == 2 and len(TOML) == 1
 
 
 def test_every_shader_on_the_page_draws_from_the_configuration_folder(tmp_path: Path) -> None:
@@ -106,8 +119,20 @@ def changed(tmp_path: Path) -> Path:
     assert laws == 1
     sections.write_text(text, encoding="utf-8")
     profile = tmp_path / "blackhole_gl" / "physics" / "disk_profile.py"
-    profile.write_text(profile.read_text(encoding="utf-8") + "\n\n" + PYTHON[0], encoding="utf-8")
+    profile.write_text(profile.read_text(encoding="utf-8") + "\n\n" + LAW_TEXT, encoding="utf-8")
     return tmp_path
+
+
+def test_the_twin_on_the_page_is_one_file_of_the_project(changed: Path) -> None:
+    (changed / TWIN_FILE).write_text(TWIN_TEXT, encoding="utf-8")
+    for path, text in SHADERS:
+        if Path(path).parent.name == "ray_models":
+            (changed / path).write_text(text, encoding="utf-8")
+    run(DRAW + TWIN, changed, changed / "config")
+
+
+def test_every_kind_on_the_page_takes_less_than_forty_lines() -> None:
+    assert all(text.count("\n") < 40 for path, text in SHADERS if Path(path).parent.name in ("things", "media"))
 
 
 def test_the_temperature_law_on_the_page_is_two_places_of_the_project(changed: Path) -> None:
