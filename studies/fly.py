@@ -57,11 +57,13 @@ def keep_worst(renderer: Renderer, scene: Scene, frames: Sequence[FlightFrame], 
 
 
 def summary(frames: Sequence[FlightFrame]) -> str:
-    largest = {name: max(getattr(frame, name) for frame in frames) for name in ("largest_px", "px_99", "fates_off_edge", "fates_wrong", "flip_mean", "flip_largest")}
+    names = ("largest_px", "px_99", "fates_off_edge", "fates_wrong", "flip_mean", "flip_largest")
+    largest = {name: max(getattr(frame, name) for frame in frames) for name in names}
     mean = {name: float(np.mean([getattr(frame, name) for frame in frames])) for name in ("flip_mean", "own_rays")}
     return (
-        f"{len(frames)} frames: displacement ≤ {largest['largest_px']:.3f} px, 99 % ≤ {largest['px_99']:.3f} px; wrong fates ≤ {largest['fates_wrong']} a frame, "
-        f"off an edge ≤ {largest['fates_off_edge']}; FLIP mean ≤ {largest['flip_mean']:.4f} ({mean['flip_mean']:.4f} over the flight), largest {largest['flip_largest']:.3f}; "
+        f"{len(frames)} frames: displacement ≤ {largest['largest_px']:.3f} px, 99 % ≤ {largest['px_99']:.3f} px; "
+        f"wrong fates ≤ {largest['fates_wrong']} a frame, off an edge ≤ {largest['fates_off_edge']}; "
+        f"FLIP mean ≤ {largest['flip_mean']:.4f} ({mean['flip_mean']:.4f} over the flight), largest {largest['flip_largest']:.3f}; "
         f"{100 * mean['own_rays']:.1f} % of the pixels had rays of their own"
     )
 

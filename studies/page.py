@@ -39,7 +39,8 @@ class Findings:
 
 def page(found: Findings, where: Origin, command: str) -> str:
     """The page as Markdown."""
-    parts = [_head(found, where, command), _methods(found), refined_section(found.rows, found.scenes), _floors(found), _finest(found.finest), _best(found), _critical()]
+    parts = [_head(found, where, command), _methods(found), refined_section(found.rows, found.scenes), _floors(found)]
+    parts += [_finest(found.finest), _best(found), _critical()]
     return "\n".join([*parts, _sizes(found), _validation(found.validation), _outside(found.outside)])
 
 
@@ -51,9 +52,10 @@ def _head(found: Findings, where: Origin, command: str) -> str:
 Made by `{command}`; do not edit. Measured on: {where.text}. The numbers behind it: [data/accuracy.csv](data/accuracy.csv),
 [data/accuracy_critical.csv](data/accuracy_critical.csv), [data/accuracy_sizes.csv](data/accuracy_sizes.csv).
 
-{len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)} scenes: the chart's own and, in a full run, every shipped
-preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays through the centres of random pixels (fixed seed) go through the pictures' own shader in
-32-bit numbers, and through the float64 twin of the *true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
+{len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)}
+scenes: the chart's own and, in a full run, every shipped preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays
+through the centres of random pixels (fixed seed) go through the pictures' own shader in 32-bit numbers, and through the float64 twin of the
+*true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
 A wrong force law therefore shows as a floor that no finer step lowers. Rays closer than ε = 1e-3 to the critical curve (the shadow's edge) are
 counted apart: there every method's error grows without bound. Cost is the shortest of the interleaved frame times over that of the same scene in flat space;
 evaluations of the right-hand side are counted too, and no noise moves those. A pixel is 1/1080 of the angle of view.
@@ -87,13 +89,22 @@ def _methods(found: Findings) -> str:
     for chart_scene in found.scenes:
         for row in _cheapest(found.rows, chart_scene, 3):
             lines.append(
-                f"| {row.scene} | {chart_scene.pixel:.2g} | {row.method} | {short(row.setting)} | {short(row.direction_99)} | {short(row.direction_99 / chart_scene.pixel)} | "
+                f"| {row.scene} | {chart_scene.pixel:.2g} | {row.method} | {short(row.setting)} | {short(row.direction_99)} | "
+                f"{short(row.direction_99 / chart_scene.pixel)} | "
                 f"{short(row.crossing_r_99)} | {short(row.g_99)} | {row.evaluations:.0f} | {short(row.cost_flat_ratio)} |"
             )
     if found.chosen:
-        lines += ["", "The plan's own choice, from the stored table. Costs there lie on each method's line of cost against evaluations, as single ones scatter by a tenth and more; below stand those measured:", "", "| scene | method | step | 99 % [pixels] | cost / flat |", "| --- | --- | --- | --- | --- |"]
+        lines += [
+            "",
+            "The plan's own choice, from the stored table. Costs there lie on each method's line of cost against evaluations, as single ones scatter by",
+            "a tenth and more; below stand those measured:",
+            "",
+            "| scene | method | step | 99 % [pixels] | cost / flat |",
+            "| --- | --- | --- | --- | --- |",
+        ]
         pixel = {item.name: item.pixel for item in found.scenes}
-        lines += [f"| {n} | {r.method} | {short(r.setting)} | {short(r.direction_99 / pixel[n])} | {short(r.cost_flat_ratio)} |" for n, r in found.chosen.items()]
+        for name, row in found.chosen.items():
+            lines.append(f"| {name} | {row.method} | {short(row.setting)} | {short(row.direction_99 / pixel[name])} | {short(row.cost_flat_ratio)} |")
     return "\n".join(lines) + "\n"
 
 
@@ -111,7 +122,8 @@ def _floors(found: Findings) -> str:
     lines = [
         "## Floors: what no step lowers",
         "",
-        "The lowest error that each model reaches in each of the four scenes, in radians (99 %, any integrator and step). In brackets: against the model's own twin.",
+        "The lowest error that each model reaches in each of the four scenes, in radians (99 %, any integrator and step).",
+        "In brackets: against the model's own twin.",
         "",
         "| model | " + " | ".join(SHOWN) + " |",
         "| --- |" + " --- |" * len(SHOWN),
@@ -128,21 +140,22 @@ def _floors(found: Findings) -> str:
     return "\n".join(lines) + """
 
 **The post-Newtonian floor.** `post_newtonian` adds a relativistic term to Newton's force on a slow mass. Light is not slow: the relativistic term alone
-is its whole bending, 4M/b far away, and Newton's term adds another 2M/b, half as much again. The error does not shrink with the step, because the integrator solves
-the wrong equation exactly. It is there at every distance: see the deflections below, and near the hole the shadow is about 30 % too large.
+is its whole bending, 4M/b far away, and Newton's term adds another 2M/b, half as much again. The error does not shrink with the step, because the integrator
+solves the wrong equation exactly. It is there at every distance: see the deflections below, and near the hole the shadow is about 30 % too large.
 
-**Ignoring the spin** (`schwarzschild`, `schwarzschild_binet` where a* ≠ 0) has a floor as well: dragging changes the deflection by about 4 a* M²/b² on either side
-(Edery & Godin 2006). `kerr_like` twists the whole orbit by the far rate and comes no nearer.
+**Ignoring the spin** (`schwarzschild`, `schwarzschild_binet` where a* ≠ 0) has a floor as well: dragging changes the deflection by about 4 a* M²/b²
+on either side (Edery & Godin 2006). `kerr_like` twists the whole orbit by the far rate and comes no nearer.
 
-**The float32 floor.** A ray is a few dozen steps; each rounds at 6e-8. Shorter steps mean more of them: below a certain length they add rounding and take away nothing.
-In Cartesian space that is near Δt₀ = 0.15 r_s for `rk4` (the table's minima are there), in Mino time near κ = 0.05. What is left is
-some 1e-6 to 1e-5 rad at 99 %, about a hundredth of a pixel. Adaptive controls are told an error for each step: below a tolerance of 1e-6 rad what they measure is rounding, and
-they shorten steps to no end.
+**The float32 floor.** A ray is a few dozen steps; each rounds at 6e-8. Shorter steps mean more of them: below a certain length they add rounding and take away
+nothing. In Cartesian space that is near Δt₀ = 0.15 r_s for `rk4` (the table's minima are there), in Mino time near κ = 0.05. What is left is
+some 1e-6 to 1e-5 rad at 99 %, about a hundredth of a pixel. Adaptive controls are told an error for each step: below a tolerance of 1e-6 rad what they measure
+is rounding, and they shorten steps to no end.
 """
 
 
 def _finest(found: Sequence[Finest]) -> str:
-    names = {"direction_median": "direction median", "direction_99": "99 %", "crossing_r_median": "crossing r median", "crossing_r_99": "99 %", "g_99": "g 99 %", "wrong_fates": "wrong fates"}
+    names = {"direction_median": "direction median", "direction_99": "99 %", "crossing_r_median": "crossing r median", "crossing_r_99": "99 %"}
+    names |= {"g_99": "g 99 %", "wrong_fates": "wrong fates"}
     lines = [
         "## The finest steps against their bounds",
         "",
@@ -177,7 +190,8 @@ def _best(found: Findings) -> str:
         rows = [row for row in found.rows if row.scene == scene and not row.refined]
         for index in front([row.cost_flat_ratio for row in rows], [row.direction_99 for row in rows]):
             row = rows[index]
-            numbers = (row.setting, row.direction_median, row.direction_99, row.direction_worst, row.wrong_fates, row.near_direction_median, row.cost_flat_ratio)
+            errors = (row.direction_median, row.direction_99, row.direction_worst, row.wrong_fates, row.near_direction_median)
+            numbers = (row.setting, *errors, row.cost_flat_ratio)
             lines.append(f"| {scene} | {row.method} | " + " | ".join(short(value) for value in numbers) + " |")
     return "\n".join(lines) + "\n"
 
@@ -188,8 +202,8 @@ def _critical() -> str:
 ![Error against distance from the critical curve](pictures/accuracy_critical.png)
 
 A ray at relative distance ε from the critical curve winds round the photon sphere about ln(1/ε)/2π times, and every half turn multiplies what was
-wrong before by e^π. What rounding the start takes away, some 1e-7, is 1e-7/ε at the end: the grey line. No method in 32-bit numbers gets below it, and coarse steps stay above it by
-their own error times the same 1/ε. Where the shadow's radius is 200 pixels, ε = 1e-3 is a fifth of a pixel from its edge.
+wrong before by e^π. What rounding the start takes away, some 1e-7, is 1e-7/ε at the end: the grey line. No method in 32-bit numbers gets below it, and
+coarse steps stay above it by their own error times the same 1/ε. Where the shadow's radius is 200 pixels, ε = 1e-3 is a fifth of a pixel from its edge.
 """
 
 
@@ -210,8 +224,9 @@ def _sizes(found: Findings) -> str:
         lines.append(f"| {method} | " + " | ".join(f"{by_size[size].milliseconds:.1f} ({by_size[size].flat_ratio:.1f})" for size in sizes) + " |")
     return "\n".join(lines) + """
 
-Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one. Refinement is worth more the larger the picture: what cannot be interpolated is a
-strip a few cells wide along edges and creases, and its share falls as the number of cells grows.
+Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one.
+Refinement is worth more the larger the picture: what cannot be interpolated is a strip a few cells wide along edges and creases, and its share falls as
+the number of cells grows.
 """
 
 
@@ -219,9 +234,11 @@ def _validation(found: Validation) -> str:
     lines = [
         "## BlackHoleGPU's validation, made again",
         "",
-        "The report of BlackHoleGPU (October 2025) states three checks: drift of conserved quantities under 1 % over 1,000 steps, the photon sphere to 0.1 %, and deflection against 4GM/c²b.",
+        "The report of [BlackHoleGPU](sources.md) (October 2025) states three checks: drift of conserved quantities under 1 % over 1,000 steps, the",
+        "photon sphere to 0.1 %, and deflection against 4GM/c²b.",
         "",
-        f"Drift over {DRIFT_STEPS:,} steps of {DRIFT_LENGTH} r_s of x'' = −(3/2) h² x/r⁵ in float32 (NumPy), largest of 64 rays that come from 20 r_s with b = 2.7 to 10 r_s:",
+        f"Drift over {DRIFT_STEPS:,} steps of {DRIFT_LENGTH} r_s of x'' = −(3/2) h² x/r⁵ in float32 (NumPy), largest of 64 rays that come from",
+        "20 r_s with b = 2.7 to 10 r_s:",
         "",
         "| integrator | energy | angular momentum |",
         "| --- | --- | --- |",
@@ -244,12 +261,14 @@ def _validation(found: Validation) -> str:
         lines.append(f"| {item.b:g} | " + " | ".join(cells) + f" | {'captured' if math.isnan(ratio) else f'{ratio:.3f}'} |")
     return "\n".join(lines) + """
 
-The last column tends to 3/2: light bends half as much again as it should. The first-order formula itself is 15 % low at b = 10 r_s; pictures near a hole need the exact one.
+The last column tends to 3/2: light bends half as much again as it should. The first-order formula itself is 15 % low at b = 10 r_s; pictures
+near a hole need the exact one.
 """
 
 
-_OUTSIDE_REMARK = """kerrz takes spins below 0.001 for 0.001. Its azimuth at infinity departs from ours for some of the rays that have passed a turning point in θ, while θ itself agrees for every
-ray, and so does everything at the first crossing. On those azimuths our two independent forms, Mino time and Kerr–Schild coordinates, agree with each other; we take the difference to be kerrz's."""
+_OUTSIDE_REMARK = """kerrz takes spins below 0.001 for 0.001. Its azimuth at infinity departs from ours for some of the rays that have passed a turning
+point in θ, while θ itself agrees for every ray, and so does everything at the first crossing. On those azimuths our two independent forms,
+Mino time and Kerr–Schild coordinates, agree with each other; we take the difference to be kerrz's."""
 
 
 def _outside(records: Sequence[Mapping[str, str]]) -> str:
@@ -257,7 +276,12 @@ def _outside(records: Sequence[Mapping[str, str]]) -> str:
     if not records:
         return "\n".join([*lines, "`tools/compare_public_code.py` makes this comparison; it has not been run here."]) + "\n"
     header = list(records[0])
-    lines += ["Made by `tools/compare_public_code.py`, with the code installed apart from this project: parallel rays over a disc of 25 M, off the critical curve (ε ≥ 1e-2). Relative", "differences of r and g at the first crossing, within 40 M; angles in radians. Number of rays, 99 %, largest.", ""]
+    lines += [
+        "Made by `tools/compare_public_code.py`, with the code installed apart from this project: parallel rays over a disc of 25 M, off the",
+        "critical curve (ε ≥ 1e-2).",
+        "Relative differences of r and g at the first crossing, within 40 M; angles in radians. Number of rays, 99 %, largest.",
+        "",
+    ]
     lines += ["| " + " | ".join(header) + " |", "| --- " * len(header) + "|"]
     lines += ["| " + " | ".join(record.values()) + " |" for record in records]
     lines += ["", _OUTSIDE_REMARK]

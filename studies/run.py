@@ -26,7 +26,9 @@ _OUTSIDE = "accuracy_outside.csv"
 _SURVEY_SHARE = 0.92
 
 
-def make(renderer: Renderer, out: Path, work: Path | None, *, quick: bool, command: str, progress: Callable[[float, str], None], plan_table: Path | None = None) -> list[Path]:
+def make(
+    renderer: Renderer, out: Path, work: Path | None, *, quick: bool, command: str, progress: Callable[[float, str], None], plan_table: Path | None = None
+) -> list[Path]:
     """Measures and writes everything; returns the files written.
 
     Args:

@@ -173,7 +173,14 @@ _POLE = "In (θ, φ) coordinates φ jumps by π at the pole and 1/sin θ has no 
 _HORIZON = "Redshift and shadow diverge: 1 − 1/r loses all its digits."
 
 CASES: tuple[Case, ...] = (
-    Case("shadow-15", "observer's frame", "Shadow's size for a static observer at 15 r_s", "Without √(1 − 1/R) in the observer's frame: 3.4 % too large.", "shadow", _camera(15.0)),
+    Case(
+        "shadow-15",
+        "observer's frame",
+        "Shadow's size for a static observer at 15 r_s",
+        "Without √(1 − 1/R) in the observer's frame: 3.4 % too large.",
+        "shadow",
+        _camera(15.0),
+    ),
     Case("shadow-3", "observer's frame", "The same at 3 r_s", "Without the observer's frame: 13 % too large.", "shadow", _camera(3.0)),
     Case(
         "shadow-far",
@@ -199,8 +206,22 @@ CASES: tuple[Case, ...] = (
         values=_camera(100.0),
         rays=impact(5.0, 10.0, 20.0),
     ),
-    Case("radial-in", "special directions", "Exactly towards the hole", "L = 0: Binet's equation has no angle to march in.", values=_camera(20.0), rays=listed(0.0)),
-    Case("radial-out", "special directions", "Exactly away from the hole", "As above, and the ray's plane is undefined.", values=_camera(20.0), rays=listed(np.pi)),
+    Case(
+        "radial-in",
+        "special directions",
+        "Exactly towards the hole",
+        "L = 0: Binet's equation has no angle to march in.",
+        values=_camera(20.0),
+        rays=listed(0.0),
+    ),
+    Case(
+        "radial-out",
+        "special directions",
+        "Exactly away from the hole",
+        "As above, and the ray's plane is undefined.",
+        values=_camera(20.0),
+        rays=listed(np.pi),
+    ),
     Case(
         "near-radial",
         "special directions",

@@ -90,7 +90,8 @@ judged against flat space.
 | | |
 | --- | --- |
 | {_SIGNS[FINE]} | fine: every ray has its true fate, no disk crossing is lost or made up, the worst direction errs by no more than {HALF_PIXEL:g} rad \
-(half a pixel of a picture 1080 pixels and 45° high), the worst crossing by no more than that share of its radius; a shadow's angle is within {100 * SHADOW_FINE:g} % |
+(half a pixel of a picture 1080 pixels and 45° high), the worst crossing by no more than that share of its radius; \
+a shadow's angle is within {100 * SHADOW_FINE:g} % |
 | {_SIGNS[DEGRADED]} | degraded: the fates are right, the worst error is at most {DEGREE:g} (about a degree); a shadow within {100 * SHADOW_FAILS:g} % |
 | {_SIGNS[FAILS]} | fails |
 | {_SIGNS[NOT_APPLICABLE]} | does not apply: the model has no spin, no steps, no horizon, or no artistic gravity |
@@ -160,7 +161,11 @@ def _viewer(judgements: Judgements) -> str:
 
 def _integrators(judgements: Judgements) -> str:
     text = "Cases that are fine of those that apply, for marched models with their own step control. Where a model is an approximation no integrator helps."
-    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), lambda model, key: Combination(model, key, traits(Combination(model)).step_control))
+
+    def by_own_control(model: str, integrator: str) -> Combination:
+        return Combination(model, integrator, traits(Combination(model)).step_control)
+
+    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), by_own_control)
 
 
 def _step_controls(judgements: Judgements) -> str:

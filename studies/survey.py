@@ -21,7 +21,11 @@ def survey(renderer: Renderer, kept: Kept, quick: bool = False, progress: Callab
         progress: called with the share done (0…1) and what is being measured.
     """
     timings = QUICK if quick else FULL
-    work = [(chart_scene, method) for chart_scene in chart_scenes(quick) for method in (*sensible(chart_scene.scene, chart_scene.whole), *worth_refining(chart_scene.scene, quick))]
+    work = [
+        (chart_scene, method)
+        for chart_scene in chart_scenes(quick)
+        for method in (*sensible(chart_scene.scene, chart_scene.whole), *worth_refining(chart_scene.scene, quick))
+    ]
     twins: dict[tuple[str, str, tuple], TracedRays | None] = {}
     rows: list[Row] = []
     for done, (chart_scene, method) in enumerate(work):

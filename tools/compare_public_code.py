@@ -26,7 +26,8 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 
 OUT = Path(__file__).resolve().parents[1] / "docs" / "data" / "accuracy_outside.csv"
-HOLES = ((0.001, 80.0), (0.3, 30.0), (0.6, 60.0), (0.9, 17.0), (0.95, 75.0), (0.998, 85.0))  # a*, inclination in degrees; kerrz takes any smaller spin for 0.001
+# a*, inclination in degrees; kerrz takes any smaller spin for 0.001
+HOLES = ((0.001, 80.0), (0.3, 30.0), (0.6, 60.0), (0.9, 17.0), (0.95, 75.0), (0.998, 85.0))
 RAYS = 400
 AWAY = 1e-2  # from the critical curve: nearer, what is compared is the rounding of the start
 FAR = 1e9  # M: where kerrz's rays start and end; what is left of the way bends by less than 1e-8
@@ -126,7 +127,17 @@ def main() -> int:
         for kind, ours in (("float64 twin", listed_rays.trace_by_reference(scene, rays)), ("shader", listed_rays.trace_by_shader(renderer, scene, rays))):
             records.append(record(spin, inclination, kind, differences(ours, theirs), code))
             print(*records[-1], sep="  ", flush=True)
-    header = ["code", "a*", "inclination", "ours", "crossing r: rays, 99 %, worst", "crossing φ [rad]", "g", "escape θ [rad]", "escape φ: median [rad], share within 1e-5"]
+    header = [
+        "code",
+        "a*",
+        "inclination",
+        "ours",
+        "crossing r: rays, 99 %, worst",
+        "crossing φ [rad]",
+        "g",
+        "escape θ [rad]",
+        "escape φ: median [rad], share within 1e-5",
+    ]
     OUT.parent.mkdir(parents=True, exist_ok=True)
     with open(OUT, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

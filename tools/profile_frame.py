@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import time as clock
 from collections import defaultdict
+from functools import partial
 
 from blackhole_gl.render import frame, programs
 from blackhole_gl.render.context import create_headless
@@ -66,7 +67,7 @@ def main() -> None:
             turn = TURN_DEG * number if motion == "moving" else 0.0
             seen = scene.with_values({"camera.azimuth_deg": turn, "camera.inclination_deg": scene.camera.inclination_deg + turn})
             drawn_before = {name: len(times) for name, times in profile.times.items()}
-            profile.timed("whole frame", lambda: renderer.render(seen, 0.1 * number, size, progressive=motion == "moving"))
+            profile.timed("whole frame", partial(renderer.render, seen, 0.1 * number, size, progressive=motion == "moving"))
             if number >= 0:
                 rows.append({name: [sum(column) for column in zip(*times[drawn_before.get(name, 0) :])] for name, times in profile.times.items()})
         _print(f"{motion}, {size[0]}×{size[1]}", rows)

@@ -58,7 +58,10 @@ def chromaticity(rgb: np.ndarray) -> np.ndarray:
 
 
 def test_published_chromaticities(colours) -> None:
-    """CIE illuminant A (Planck at 2,856 K), and points of the Planckian locus as tabled by the CIE. 5e-4: tables give four digits, and the fit is good to 2e-4."""
+    """CIE illuminant A (Planck at 2,856 K), and points of the Planckian locus as tabled by the CIE.
+
+    5e-4: tables give four digits, and the fit is good to 2e-4.
+    """
     published = {2856.0: (0.4476, 0.4074), 4000.0: (0.3805, 0.3768), 6500.0: (0.3135, 0.3237), 10000.0: (0.2807, 0.2884)}
     np.testing.assert_allclose(chromaticity(colours(list(published))), list(published.values()), atol=5e-4)
 

@@ -26,13 +26,13 @@ uniform vec2 radii;
 uniform vec2 footprint;
 out vec4 o;
 void main() {
-    vec2 place = gl_FragCoord.xy / vec2(%d.0, %d.0);
+    vec2 place = gl_FragCoord.xy / vec2(SIZE);
     float phi = mix(azimuths.x, azimuths.y, place.x);
     DiskMatter matter = DiskMatter(mix(radii.x, radii.y, place.y), vec2(cos(phi), sin(phi)), footprint, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
     o = vec4(matter.density);
 }
-""" % (WIDTH, HEIGHT)
+""".replace("SIZE", f"{WIDTH}.0, {HEIGHT}.0")
 
 
 @pytest.fixture()

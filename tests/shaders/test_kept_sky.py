@@ -26,7 +26,8 @@ def test_the_kept_sky_is_the_drawn_one(renderer: Renderer) -> None:
 
 
 @pytest.mark.parametrize(
-    "change", [{"sky.brightness": 2.0}, {"sky.procedural.star_brightness": 3.0}, {"sky.enabled": False}, {"camera.inclination_deg": 75.0}, {"disk.enabled": False}]
+    "change",
+    [{"sky.brightness": 2.0}, {"sky.procedural.star_brightness": 3.0}, {"sky.enabled": False}, {"camera.inclination_deg": 75.0}, {"disk.enabled": False}],
 )
 def test_a_changed_sky_or_view_is_drawn_anew(renderer: Renderer, change: dict[str, object]) -> None:
     for _ in range(3):

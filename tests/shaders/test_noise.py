@@ -44,7 +44,10 @@ def _piece(ctx, tmp_path, text: str) -> Piece:
 
 @pytest.mark.parametrize("first, seed", [((-20, -7), 1), ((-300, 100), 6483), ((-50, -500), 16370)])
 def test_gradients_of_the_lattice_are_as_good_as_random(ctx, tmp_path, first: tuple[int, int], seed: int) -> None:
-    """Of 512² points the two components correlate at no distance by more than 0.02. Random numbers: 0.002 in the mean, 0.0097 for the largest of 512² distances."""
+    """Of 512² points the two components correlate at no distance by more than 0.02.
+
+    Random numbers: 0.002 in the mean, 0.0097 for the largest of 512² distances.
+    """
     drawn = _piece(ctx, tmp_path, GRADIENTS).set(first=first, seed=seed).draw((SIDE, SIDE))[..., :2]
     parts = [(drawn[..., k] - drawn[..., k].mean()) / drawn[..., k].std() for k in range(2)]
     np.testing.assert_allclose(drawn.std(axis=(0, 1)), 2.0**32 / np.sqrt(12.0), rtol=0.01)

@@ -1,4 +1,7 @@
-"""What BlackHoleGPU's report (docs/sources.md) claims for itself, held by our shaders: drift of conserved quantities, photon sphere, deflection. `-rP` shows the figures."""
+"""What BlackHoleGPU's report (docs/sources.md) claims for itself, held by our shaders: drift of conserved quantities, photon sphere, deflection.
+
+`-rP` shows the figures.
+"""
 
 from __future__ import annotations
 

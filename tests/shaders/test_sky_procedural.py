@@ -23,14 +23,14 @@ uniform float pixel, energy, blur;
 uniform float squeeze;  // how much finer the rays lie along the picture's rows: a lens's magnification
 out vec4 o;
 vec3 ray(vec2 place) {
-    vec2 p = (place - 0.5 * vec2(%d.0, %d.0)) * pixel;
+    vec2 p = (place - 0.5 * vec2(SIZE)) * pixel;
     return normalize(forward + p.x * squeeze * side + p.y * above);
 }
 void main() {
     vec3 d = ray(gl_FragCoord.xy);
     o = vec4(sky_radiance(d, blur * (ray(gl_FragCoord.xy + vec2(1.0, 0.0)) - d), blur * (ray(gl_FragCoord.xy + vec2(0.0, 1.0)) - d), energy), 1.0);
 }
-""" % SIZE
+""".replace("SIZE", f"{SIZE[0]}.0, {SIZE[1]}.0")
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,8 @@ def test_the_driver_agrees_about_every_offset(ctx):
         assignments = "\n".join(f"if (place == {k}) found = {read};" for k, read in enumerate(reads))
         program = ctx.program(
             vertex_shader="#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }",
-            fragment_shader=f"#version 330 core\n{block.glsl}\nout float found;\nvoid main() {{ int place = int(gl_FragCoord.x); found = 0.0;\n{assignments}\n}}",
+            fragment_shader=f"#version 330 core\n{block.glsl}\nout float found;\n"
+            f"void main() {{ int place = int(gl_FragCoord.x); found = 0.0;\n{assignments}\n}}",
         )
         buffer = ctx.buffer(block.pack(values))
         program[block.name].binding = 5

@@ -118,7 +118,11 @@ def test_the_order_of_a_frozen_map_counts_and_a_plain_dictionary_is_compared_by_
         ("things.moon.radii", [1.0, -1.0], "things.moon.radii: entry 2: got -1.0; allowed is a number from 0 to 9 r_s"),
         ("things.moon.radii", [10**5000], "entry 1: got a whole number of more than 64 bits"),
         ("things.moon.radii", 3.0, "got 3.0; allowed is a list of 0 to 4 entries"),
-        ("things.moon.path", [{"time": 1.0}, {"tmie": 2.0}], "things.moon.path: entry 2: there is no 'tmie'; allowed are time, ease, image; did you mean time?"),
+        (
+            "things.moon.path",
+            [{"time": 1.0}, {"tmie": 2.0}],
+            "things.moon.path: entry 2: there is no 'tmie'; allowed are time, ease, image; did you mean time?",
+        ),
         ("things.moon.path", [{"time": -1.0}], "entry 1, time: got -1.0; allowed is a number from 0"),
         ("things.moon.path", [3.0], "entry 1: got 3.0; allowed is a table with time, ease, image"),
     ],
@@ -355,7 +359,10 @@ def test_any_tree_is_a_scene_or_a_clear_error(section, tree):
 
 
 @settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.sampled_from(["radius", "count", "glows", "pattern", "caption", "image", "radii", "path"]), st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), _trees))
+@given(
+    st.sampled_from(["radius", "count", "glows", "pattern", "caption", "image", "radii", "path"]),
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), _trees),
+)
 def test_whatever_is_given_is_taken_whole_or_refused_with_a_sentence(name, value):
     key = f"things.moon.{name}"
     try:
