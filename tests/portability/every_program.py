@@ -81,7 +81,7 @@ def _readers(made: Plan) -> Iterator[tuple[str, int]]:
     yield "shade_classes.frag", 0
     yield "refine_resolve.frag", 1
     if made.orders:
-        yield from (("shade_disk.frag", refined) for refined in (0, 1))
+        yield from (("shade_matter.frag", refined) for refined in (0, 1))
     if made.scene.sky.enabled:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
 
@@ -106,7 +106,7 @@ def _of_instances() -> Iterator[Wanted]:
                 made = plan(scene)
             except SceneError:
                 continue  # this model cannot
-            drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_disk.frag", "shade_sky.frag")]
+            drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1})):
                 yield path, f"{kind} by {model}", made, switches
 
