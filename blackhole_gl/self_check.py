@@ -87,7 +87,8 @@ def _window() -> Finding:
     try:
         from .app import window
     except ImportError as error:
-        return Finding("window", False, f"{error}. Install the package's dependencies again: pip install blackhole-gl; on Debian or Ubuntu also: {context.INSTALL_LINE}")
+        again = f"Install the package's dependencies again: pip install blackhole-gl; on Debian or Ubuntu also: {context.INSTALL_LINE}"
+        return Finding("window", False, f"{error}. {again}")
     if not display_present():
         return Finding("window", None, "no display (DISPLAY is not set; Wayland serves through XWayland, which sets it): the viewer writes a picture instead")
     return Finding("window", window is not None, "a display is there, and the window libraries load")

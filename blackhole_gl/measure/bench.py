@@ -1,8 +1,9 @@
 """How long frames take on this machine: methods and looks, still and moving, over picture sizes; interleaved, as ratios to the flat frame.
 
 A *still* frame keeps the hit map and lets the disk turn: shade and post. A *moving* one follows a camera that has gone half a degree round and
-half a degree down since the last: trace, shade and post, as the window draws it: refined where the plan refines. Times are by the wall clock with the pipeline drained after each frame, the median
-of a few frames in each round, as other programs come in bursts; beside their median stands the least processor time of the process, which other programs disturb less and which a GPU makes meaningless.
+half a degree down since the last: trace, shade and post, as the window draws it: refined where the plan refines. Times are by the wall clock with the
+pipeline drained after each frame, the median of a few frames in each round, as other programs come in bursts; beside their median stands the least
+processor time of the process, which other programs disturb less and which a GPU makes meaningless.
 """
 
 from __future__ import annotations
@@ -127,7 +128,10 @@ def text(bench: Bench) -> str:
     for row in bench.rows:
         times = " | ".join(f"{value:.1f}" for value in (row.milliseconds, row.trace_ms, row.shade_ms, row.post_ms))
         in_e = "" if row.trace_in_e is None else f"{row.trace_in_e:.3f}"
-        lines.append(f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {in_e} | {row.own_rays:.2f} | {row.processor_ms:.1f} |")
+        lines.append(
+            f"| {row.width}×{row.height} | {row.motion} | {row.scene} | {row.method} | {times} | {row.ratio:.2f} | {in_e} | {row.own_rays:.2f} | "
+            f"{row.processor_ms:.1f} |"
+        )
     return "\n".join(lines) + "\n"
 
 

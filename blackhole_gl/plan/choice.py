@@ -133,7 +133,9 @@ def predictions(scene: Scene) -> Iterator[Prediction]:
 
 @lru_cache(maxsize=64)
 def _candidates(near: tuple[str, ...], rays: Rays, spins: bool, has_things: bool) -> tuple[tuple[Method, tuple[Measured, ...]], ...]:
-    """Methods that fit `rays` round a hole that `spins` or not, in a scene that `has_things` or not, each with its rows in the measured scenes `near`, in their order.
+    """Methods that fit `rays` round a hole that `spins` or not, in a scene that `has_things` or not.
+
+    Each with its rows in the measured scenes `near`, in their order.
 
     Kept, as every frame of a moving camera is a scene to choose for.
     """

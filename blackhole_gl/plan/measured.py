@@ -93,6 +93,9 @@ def read(path: Path) -> tuple[Measured, ...]:
 
 
 def from_texts(record: Mapping[str, str]) -> Measured:
-    """The row whose columns are the texts of `record`. A column that is not there is one left empty: tables from before there was refinement lack the last two."""
+    """The row whose columns are the texts of `record`.
+
+    A column that is not there is one left empty: tables from before there was refinement lack the last two.
+    """
     kinds = {"str": str, "float": lambda text: float(text or "nan"), "int": lambda text: int(text or "0")}
     return Measured(**{item.name: kinds[item.type](record.get(item.name, "")) for item in fields(Measured)})

@@ -37,7 +37,8 @@ def create_headless(backend: str = "auto") -> moderngl.Context:
         except Exception as error:  # whatever a GL loader throws, the next way is tried and the reason is kept
             failures.append(f"{name}: {error}")
     raise ContextError(
-        "no OpenGL 3.3 context without a display could be made (" + "; ".join(failures) + f"). On Debian or Ubuntu: {INSTALL_LINE}, or for OSMesa: {OSMESA_LINE}"
+        f"no OpenGL 3.3 context without a display could be made ({'; '.join(failures)}). "
+        f"On Debian or Ubuntu: {INSTALL_LINE}, or for OSMesa: {OSMESA_LINE}"
     )
 
 
