@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
-from ..plan import REFINE_STEP
+from ..plan import GRID_MARGIN, REFINE_STEP
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
@@ -50,7 +50,8 @@ class CoarseGrid:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
         inputs = rays.inputs
         self._make_targets(inputs.size, textures(inputs.plan.orders))
-        rays.set(ray_grid=(REFINE_STEP, -REFINE_STEP, -REFINE_STEP))
+        first = -GRID_MARGIN * REFINE_STEP
+        rays.set(ray_grid=(REFINE_STEP, first, first))
         self._rays.use()
         rays.draw()
         self._make_nodes(inputs)
@@ -136,7 +137,7 @@ class CoarseGrid:
             return
         self.release()
         cells = tuple(-(-side // REFINE_STEP) for side in size)
-        nodes = tuple(side + 3 for side in cells)
+        nodes = tuple(side + 1 + 2 * GRID_MARGIN for side in cells)
         self._rays = self._framebuffer([self._texture(nodes, 4, "f4") for _ in range(count)])
         kinds = self._texture(nodes, 1, "u4")
         self._node_textures = {name: self._texture(nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
