@@ -3,4 +3,16 @@
 from .make import MARCH_BOUND, forget_measurements, plan, refine_px, unfit_options
 from .record import GRID_MARGIN, INNERMOST_CROSSING, MERIDIAN, REFINE_STEP, WORLD, Plan
 
-__all__ = ["GRID_MARGIN", "INNERMOST_CROSSING", "MARCH_BOUND", "MERIDIAN", "REFINE_STEP", "WORLD", "Plan", "forget_measurements", "plan", "refine_px", "unfit_options"]
+__all__ = [
+    "GRID_MARGIN",
+    "INNERMOST_CROSSING",
+    "MARCH_BOUND",
+    "MERIDIAN",
+    "REFINE_STEP",
+    "WORLD",
+    "Plan",
+    "forget_measurements",
+    "plan",
+    "refine_px",
+    "unfit_options",
+]
