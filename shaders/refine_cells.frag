@@ -27,7 +27,7 @@ uint crossing_kind(uint crossing, inout bool trusted, inout bool disk) {
 }
 
 void main() {
-    ivec2 corner = ivec2(gl_FragCoord.xy) + 1;
+    ivec2 corner = ivec2(gl_FragCoord.xy) + GRID_MARGIN;
     uvec4 kind = uvec4(texelFetch(kinds, corner, 0).r, texelFetch(kinds, corner + ivec2(1, 0), 0).r, texelFetch(kinds, corner + ivec2(0, 1), 0).r, texelFetch(kinds, corner + ivec2(1, 1), 0).r);
     uint any = kind.x | kind.y | kind.z | kind.w;
     uint fate = kind.x & 3u;

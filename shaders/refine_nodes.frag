@@ -101,7 +101,8 @@ uint kinds_of_crossings(vec2 point[5]) {
 }
 
 void main() {
-    // The outermost nodes are no cell's corners, and have no neighbours on one side: they do as the next one does.
+    // The outermost nodes are no cell's corners, and have no neighbours on one side: they do as the next one does. The next ones are no corners either, but a corner
+    // at the picture's edge may share its quad with one, and needs its second differences.
     vec2 size = vec2(textureSize(hits0, 0)), texel = 1.0 / size;
     vec2 place = clamp(gl_FragCoord.xy, vec2(1.5), size - 1.5);
     vec2 v[5];

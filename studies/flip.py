@@ -36,8 +36,9 @@ def flip(reference: np.ndarray, test: np.ndarray, pixels_per_degree: float = PIX
         ValueError: the pictures differ in shape, or are none.
     """
     if reference.shape != test.shape or reference.ndim != 3 or reference.shape[2] != 3 or {reference.dtype, test.dtype} != {np.dtype(np.uint8)}:
-        got = f"{reference.shape} {reference.dtype} and {test.shape} {test.dtype}"
-        raise ValueError(f"two pictures of one shape (height, width, 3), uint8, are compared; got {got}")
+        raise ValueError(
+            f"two pictures of one shape (height, width, 3), uint8, are compared; got {reference.shape} {reference.dtype} and {test.shape} {test.dtype}"
+        )
     opponent = [_opponent(_linear(picture)) for picture in (reference, test)]
     colour = _redistributed(_distance(*(_perceived(planes, pixels_per_degree) for planes in opponent)))
     reference_features, test_features = (_features((planes[0] + 16.0) / 116.0, pixels_per_degree) for planes in opponent)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from dataclasses import fields as record_fields
 
 import numpy as np
@@ -84,12 +84,7 @@ COLUMNS = tuple(item.name for item in record_fields(Row))
 
 
 def measure(
-    renderer: Renderer,
-    chart_scene: ChartScene,
-    method: Combination,
-    settings: tuple[float, ...],
-    timings: Timings,
-    twin: listed_rays.TracedRays | None,
+    renderer: Renderer, chart_scene: ChartScene, method: Combination, settings: tuple[float, ...], timings: Timings, twin: listed_rays.TracedRays | None
 ) -> list[Row]:
     """A row for each of `settings`.
 
@@ -141,19 +136,13 @@ def _row(
         step_control=method.step_control,
         step_length=step["length"],
         step_angle=step["angle"],
-        direction_median=errors.direction_median,
-        direction_99=errors.direction_99,
-        direction_worst=errors.direction_worst,
-        crossing_r_99=errors.crossing_r_99,
-        g_99=errors.g_99,
-        wrong_fates=errors.wrong_fates,
+        **asdict(errors),
         evaluations=float(np.mean(found.evaluations)),
         cost_flat_ratio=cost.ratio,
         step_tolerance=step["tolerance"],
         refined=int(method.refined),
         cost_unrefined=math.nan,
         variant=method.variant,
-        lost_crossings=errors.lost_crossings,
         near_direction_median=close.direction_median,
         near_direction_worst=close.direction_worst,
         near_wrong_fates=close.wrong_fates,

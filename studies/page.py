@@ -39,8 +39,9 @@ class Findings:
 
 def page(found: Findings, where: Origin, command: str) -> str:
     """The page as Markdown."""
-    errors = [_methods(found), refined_section(found.rows, found.scenes), _floors(found), _finest(found.finest), _best(found), _critical()]
-    return "\n".join([_head(found, where, command), *errors, _sizes(found), _validation(found.validation), _outside(found.outside)])
+    parts = [_head(found, where, command), _methods(found), refined_section(found.rows, found.scenes), _floors(found)]
+    parts += [_finest(found.finest), _best(found), _critical()]
+    return "\n".join([*parts, _sizes(found), _validation(found.validation), _outside(found.outside)])
 
 
 def _head(found: Findings, where: Origin, command: str) -> str:
@@ -51,10 +52,10 @@ def _head(found: Findings, where: Origin, command: str) -> str:
 Made by `{command}`; do not edit. Measured on: {where.text}. The numbers behind it: [data/accuracy.csv](data/accuracy.csv),
 [data/accuracy_critical.csv](data/accuracy_critical.csv), [data/accuracy_sizes.csv](data/accuracy_sizes.csv).
 
-{len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows,
-{len(found.scenes)} scenes: the chart's own and, in a full run, every shipped preset that shows a hole as it is.
-In each, {found.scenes[0].count:,} rays through the centres of random pixels (fixed seed) go through the pictures' own shader in 32-bit numbers,
-and through the float64 twin of the *true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
+{len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)}
+scenes: the chart's own and, in a full run, every shipped preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays
+through the centres of random pixels (fixed seed) go through the pictures' own shader in 32-bit numbers, and through the float64 twin of the
+*true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
 A wrong force law therefore shows as a floor that no finer step lowers. Rays closer than ε = 1e-3 to the critical curve (the shadow's edge) are
 counted apart: there every method's error grows without bound. Cost is the shortest of the interleaved frame times over that of the same scene in flat space;
 evaluations of the right-hand side are counted too, and no noise moves those. A pixel is 1/1080 of the angle of view.
@@ -89,14 +90,14 @@ def _methods(found: Findings) -> str:
         for row in _cheapest(found.rows, chart_scene, 3):
             lines.append(
                 f"| {row.scene} | {chart_scene.pixel:.2g} | {row.method} | {short(row.setting)} | {short(row.direction_99)} | "
-                f"{short(row.direction_99 / chart_scene.pixel)} | {short(row.crossing_r_99)} | {short(row.g_99)} | {row.evaluations:.0f} | "
-                f"{short(row.cost_flat_ratio)} |"
+                f"{short(row.direction_99 / chart_scene.pixel)} | "
+                f"{short(row.crossing_r_99)} | {short(row.g_99)} | {row.evaluations:.0f} | {short(row.cost_flat_ratio)} |"
             )
     if found.chosen:
         lines += [
             "",
-            "The plan's own choice, from the stored table. Costs there lie on each method's line of cost against evaluations, as single ones scatter by a "
-            "tenth and more; below stand those measured:",
+            "The plan's own choice, from the stored table. Costs there lie on each method's line of cost against evaluations, as single ones scatter by",
+            "a tenth and more; below stand those measured:",
             "",
             "| scene | method | step | 99 % [pixels] | cost / flat |",
             "| --- | --- | --- | --- | --- |",
@@ -121,7 +122,7 @@ def _floors(found: Findings) -> str:
     lines = [
         "## Floors: what no step lowers",
         "",
-        "The lowest error that each model reaches in each of the four scenes, in radians (99 %, any integrator and step). "
+        "The lowest error that each model reaches in each of the four scenes, in radians (99 %, any integrator and step).",
         "In brackets: against the model's own twin.",
         "",
         "| model | " + " | ".join(SHOWN) + " |",
@@ -139,28 +140,22 @@ def _floors(found: Findings) -> str:
     return "\n".join(lines) + """
 
 **The post-Newtonian floor.** `post_newtonian` adds a relativistic term to Newton's force on a slow mass. Light is not slow: the relativistic term alone
-is its whole bending, 4M/b far away, and Newton's term adds another 2M/b, half as much again. The error does not shrink with the step, because the
-integrator solves the wrong equation exactly. It is there at every distance: see the deflections below, and near the hole the shadow is about 30 % too large.
+is its whole bending, 4M/b far away, and Newton's term adds another 2M/b, half as much again. The error does not shrink with the step, because the integrator
+solves the wrong equation exactly. It is there at every distance: see the deflections below, and near the hole the shadow is about 30 % too large.
 
-**Ignoring the spin** (`schwarzschild`, `schwarzschild_binet` where a* ≠ 0) has a floor as well: dragging changes the deflection by about 4 a* M²/b² on
-either side (Edery & Godin 2006). `kerr_like` twists the whole orbit by the far rate and comes no nearer.
+**Ignoring the spin** (`schwarzschild`, `schwarzschild_binet` where a* ≠ 0) has a floor as well: dragging changes the deflection by about 4 a* M²/b²
+on either side (Edery & Godin 2006). `kerr_like` twists the whole orbit by the far rate and comes no nearer.
 
-**The float32 floor.** A ray is a few dozen steps; each rounds at 6e-8. Shorter steps mean more of them: below a certain length they add rounding and take
-away nothing. In Cartesian space that is near Δt₀ = 0.15 r_s for `rk4` (the table's minima are there), in Mino time near κ = 0.05. What is left is
-some 1e-6 to 1e-5 rad at 99 %, about a hundredth of a pixel. Adaptive controls are told an error for each step: below a tolerance of 1e-6 rad what they
-measure is rounding, and they shorten steps to no end.
+**The float32 floor.** A ray is a few dozen steps; each rounds at 6e-8. Shorter steps mean more of them: below a certain length they add rounding and take away
+nothing. In Cartesian space that is near Δt₀ = 0.15 r_s for `rk4` (the table's minima are there), in Mino time near κ = 0.05. What is left is
+some 1e-6 to 1e-5 rad at 99 %, about a hundredth of a pixel. Adaptive controls are told an error for each step: below a tolerance of 1e-6 rad what they measure
+is rounding, and they shorten steps to no end.
 """
 
 
 def _finest(found: Sequence[Finest]) -> str:
-    names = {
-        "direction_median": "direction median",
-        "direction_99": "99 %",
-        "crossing_r_median": "crossing r median",
-        "crossing_r_99": "99 %",
-        "g_99": "g 99 %",
-        "wrong_fates": "wrong fates",
-    }
+    names = {"direction_median": "direction median", "direction_99": "99 %", "crossing_r_median": "crossing r median", "crossing_r_99": "99 %"}
+    names |= {"g_99": "g 99 %", "wrong_fates": "wrong fates"}
     lines = [
         "## The finest steps against their bounds",
         "",
@@ -229,8 +224,9 @@ def _sizes(found: Findings) -> str:
         lines.append(f"| {method} | " + " | ".join(f"{by_size[size].milliseconds:.1f} ({by_size[size].flat_ratio:.1f})" for size in sizes) + " |")
     return "\n".join(lines) + """
 
-Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one. Refinement is worth more
-the larger the picture: what cannot be interpolated is a strip a few cells wide along edges and creases, and its share falls as the number of cells grows.
+Time grows with the pixels; the ratio is lower in small frames, where what a frame costs in any case weighs more in the flat one.
+Refinement is worth more the larger the picture: what cannot be interpolated is a strip a few cells wide along edges and creases, and its share falls as
+the number of cells grows.
 """
 
 
@@ -238,11 +234,11 @@ def _validation(found: Validation) -> str:
     lines = [
         "## BlackHoleGPU's validation, made again",
         "",
-        "The report of BlackHoleGPU (October 2025) states three checks: drift of conserved quantities under 1 % over 1,000 steps, the photon sphere to 0.1 %, "
-        "and deflection against 4GM/c²b.",
+        "The report of [BlackHoleGPU](sources.md) (October 2025) states three checks: drift of conserved quantities under 1 % over 1,000 steps, the",
+        "photon sphere to 0.1 %, and deflection against 4GM/c²b.",
         "",
-        f"Drift over {DRIFT_STEPS:,} steps of {DRIFT_LENGTH} r_s of x'' = −(3/2) h² x/r⁵ in float32 (NumPy), largest of 64 rays that come from 20 r_s "
-        "with b = 2.7 to 10 r_s:",
+        f"Drift over {DRIFT_STEPS:,} steps of {DRIFT_LENGTH} r_s of x'' = −(3/2) h² x/r⁵ in float32 (NumPy), largest of 64 rays that come from",
+        "20 r_s with b = 2.7 to 10 r_s:",
         "",
         "| integrator | energy | angular momentum |",
         "| --- | --- | --- |",
@@ -265,14 +261,14 @@ def _validation(found: Validation) -> str:
         lines.append(f"| {item.b:g} | " + " | ".join(cells) + f" | {'captured' if math.isnan(ratio) else f'{ratio:.3f}'} |")
     return "\n".join(lines) + """
 
-The last column tends to 3/2: light bends half as much again as it should. The first-order formula itself is 15 % low at b = 10 r_s; pictures near a hole
-need the exact one.
+The last column tends to 3/2: light bends half as much again as it should. The first-order formula itself is 15 % low at b = 10 r_s; pictures
+near a hole need the exact one.
 """
 
 
-_OUTSIDE_REMARK = """kerrz takes spins below 0.001 for 0.001. Its azimuth at infinity departs from ours for some of the rays that have passed a turning point
-in θ, while θ itself agrees for every ray, and so does everything at the first crossing. On those azimuths our two independent forms, Mino time and
-Kerr–Schild coordinates, agree with each other; we take the difference to be kerrz's."""
+_OUTSIDE_REMARK = """kerrz takes spins below 0.001 for 0.001. Its azimuth at infinity departs from ours for some of the rays that have passed a turning
+point in θ, while θ itself agrees for every ray, and so does everything at the first crossing. On those azimuths our two independent forms,
+Mino time and Kerr–Schild coordinates, agree with each other; we take the difference to be kerrz's."""
 
 
 def _outside(records: Sequence[Mapping[str, str]]) -> str:
@@ -281,8 +277,9 @@ def _outside(records: Sequence[Mapping[str, str]]) -> str:
         return "\n".join([*lines, "`tools/compare_public_code.py` makes this comparison; it has not been run here."]) + "\n"
     header = list(records[0])
     lines += [
-        "Made by `tools/compare_public_code.py`, with the code installed apart from this project: parallel rays over a disc of 25 M, off the critical curve",
-        "(ε ≥ 1e-2). Relative differences of r and g at the first crossing, within 40 M; angles in radians. Number of rays, 99 %, largest.",
+        "Made by `tools/compare_public_code.py`, with the code installed apart from this project: parallel rays over a disc of 25 M, off the",
+        "critical curve (ε ≥ 1e-2).",
+        "Relative differences of r and g at the first crossing, within 40 M; angles in radians. Number of rays, 99 %, largest.",
         "",
     ]
     lines += ["| " + " | ".join(header) + " |", "| --- " * len(header) + "|"]

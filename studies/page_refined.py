@@ -18,17 +18,17 @@ def refined_section(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> str:
     lines = [
         "## Refined maps: while the camera moves",
         "",
-        f"*Refined* means: exact rays go through every {REFINE_STEP}th pixel each way; where these agree in fate and crossings and bend little from one to the",
-        "next, the pixels between them are interpolated, and all others get exact rays of their own",
-        "([performance.md](performance.md#refinement-under-a-moving-camera)). So a refined method is the method itself with an error of interpolation on top,",
-        "held below a share of the scene's tolerance. Both error and cost depend on the picture's size:",
-        f"these are of {width}×{height} pixels and a tolerance of {REFINED_TOLERANCE:g} px, a pixel is 1/{height} of the angle of view, and the flat frame is",
-        "of that size too. In a picture of 320×180, the size of all other costs here, far more of the pixels could not be interpolated.",
-        "Evaluations are the mean over all pixels, interpolated ones included. Crossings count where the disk is,",
-        "and the error of a refined one is relative to the disk's outer radius.",
+        f"*Refined* means: exact rays go through every {REFINE_STEP}th pixel each way; where these agree in fate and crossings and bend little",
+        "from one to the next, the pixels between them are interpolated, and all others get exact rays of their own",
+        "([performance.md](performance.md#refinement-under-a-moving-camera)).",
+        "So a refined method is the method itself with an error of interpolation on top, held below a share of the scene's tolerance. Both error and",
+        f"cost depend on the picture's size: these are of {width}×{height} pixels and a tolerance of {REFINED_TOLERANCE:g} px, a pixel is 1/{height}",
+        "of the angle of view, and the flat frame is of that size too. In a picture of 320×180, the size of all other costs here, far more of the",
+        "pixels could not be interpolated. Evaluations are the mean over all pixels, interpolated ones included.",
+        "Crossings count where the disk is, and the error of a refined one is relative to the disk's outer radius.",
         "",
-        f"Of each scene, the cheapest refined method within {REFINED_TOLERANCE:g} px; behind each figure in brackets the same method with a ray for every "
-        "pixel.",
+        f"Of each scene, the cheapest refined method within {REFINED_TOLERANCE:g} px; behind each figure in brackets the same method with",
+        "a ray for every pixel.",
         "",
         "| scene | method | step | 99 % [pixels] | worst [pixels] | crossing r 99 % | wrong fates | evaluations a pixel | cost / flat |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
@@ -38,8 +38,8 @@ def refined_section(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> str:
         good = [row for row in rows if row.scene == item.name and row.refined and row.direction_99 <= REFINED_TOLERANCE * pixel]
         if good:
             best = min(good, key=lambda row: row.cost_flat_ratio)
-            cells = " | ".join(_cells(best, _unrefined(rows, best), pixel))
-            lines.append(f"| {item.name} | {best.method.removesuffix(', refined')} | {short(best.setting)} | {cells} |")
+            cells = item.name, best.method.removesuffix(", refined"), short(best.setting), *_cells(best, _unrefined(rows, best), pixel)
+            lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 

@@ -27,14 +27,7 @@ _SURVEY_SHARE = 0.92
 
 
 def make(
-    renderer: Renderer,
-    out: Path,
-    work: Path | None,
-    *,
-    quick: bool,
-    command: str,
-    progress: Callable[[float, str], None],
-    plan_table: Path | None = None,
+    renderer: Renderer, out: Path, work: Path | None, *, quick: bool, command: str, progress: Callable[[float, str], None], plan_table: Path | None = None
 ) -> list[Path]:
     """Measures and writes everything; returns the files written.
 

@@ -162,10 +162,10 @@ def _viewer(judgements: Judgements) -> str:
 def _integrators(judgements: Judgements) -> str:
     text = "Cases that are fine of those that apply, for marched models with their own step control. Where a model is an approximation no integrator helps."
 
-    def with_integrator(model: str, key: str) -> Combination:
-        return Combination(model, key, traits(Combination(model)).step_control or "")
+    def by_own_control(model: str, integrator: str) -> Combination:
+        return Combination(model, integrator, traits(Combination(model)).step_control or "")
 
-    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), with_integrator)
+    return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), by_own_control)
 
 
 def _step_controls(judgements: Judgements) -> str:

@@ -55,8 +55,9 @@ def _commit() -> str:
     here = Path(__file__).resolve().parents[1]
     try:
         commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=here, capture_output=True, text=True, check=True, timeout=20).stdout.strip()
-        command = ["git", "status", "--porcelain", "--", "blackhole_gl", "shaders"]
-        changed = subprocess.run(command, cwd=here, capture_output=True, text=True, check=True, timeout=20).stdout
+        changed = subprocess.run(
+            ["git", "status", "--porcelain", "--", "blackhole_gl", "shaders"], cwd=here, capture_output=True, text=True, check=True, timeout=20
+        ).stdout
     except (OSError, subprocess.SubprocessError):
         return "unknown"
     return commit + ("+" if changed.strip() else "")

@@ -61,7 +61,7 @@ def _shader_text(method: Combination) -> str:
     files = [shaders_dir() / "trace.frag", *sorted((shaders_dir() / "common").glob("*.glsl"))]
     for slot, key in (("ray_model", method.model), ("integrator", method.integrator), ("step_control", method.step_control)):
         if key:
-            files.append(shaders_dir() / catalogue.plug_ins(slot)[key].path)
+            files.append(catalogue.plug_ins(slot)[key].file)
     if method.refined:
         files += sorted(shaders_dir().glob("refine_*.frag"))
     return "\n".join(path.read_text(encoding="utf-8") for path in files)

@@ -127,8 +127,17 @@ def main() -> int:
         for kind, ours in (("float64 twin", listed_rays.trace_by_reference(scene, rays)), ("shader", listed_rays.trace_by_shader(renderer, scene, rays))):
             records.append(record(spin, inclination, kind, differences(ours, theirs), code))
             print(*records[-1], sep="  ", flush=True)
-    crossing = ["crossing r: rays, 99 %, worst", "crossing φ [rad]", "g"]
-    header = ["code", "a*", "inclination", "ours", *crossing, "escape θ [rad]", "escape φ: median [rad], share within 1e-5"]
+    header = [
+        "code",
+        "a*",
+        "inclination",
+        "ours",
+        "crossing r: rays, 99 %, worst",
+        "crossing φ [rad]",
+        "g",
+        "escape θ [rad]",
+        "escape φ: median [rad], share within 1e-5",
+    ]
     OUT.parent.mkdir(parents=True, exist_ok=True)
     with open(OUT, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

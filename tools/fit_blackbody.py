@@ -68,12 +68,16 @@ def first_guess(channel: np.ndarray) -> np.ndarray:
     return np.linalg.lstsq(terms, value, rcond=None)[0]
 
 
+def _weighted_errors(numbers: np.ndarray, weights: np.ndarray, exact: np.ndarray) -> np.ndarray:
+    return (weights * errors(numbers, exact)).ravel()
+
+
 def fitted(exact: np.ndarray) -> np.ndarray:
     """The ten numbers of least largest error: least squares, in which what errs most weighs more and more."""
     numbers = np.concatenate([first_guess(exact[:, 0]), first_guess(exact[:, 2])])
     weights, best = np.ones((len(exact), 4)), numbers
     for _ in range(ROUNDS):
-        numbers = least_squares(lambda n, w: (w * errors(n, exact)).ravel(), numbers, x_scale=np.abs(numbers), args=(weights,)).x
+        numbers = least_squares(_weighted_errors, numbers, x_scale=np.abs(numbers), args=(weights, exact)).x
         size = np.abs(errors(numbers, exact))
         if size.max() < np.abs(errors(best, exact)).max():
             best = numbers
@@ -89,8 +93,12 @@ def main() -> None:
     for name, (a, b, c, d, e) in zip(("red", "blue"), numbers.reshape(2, 5)):
         print(f"{name}: (({a} * t + {b}) * t + {c}) / ((t + {d}) * t + {e})")
     found = colours(numbers)
-    of_chromaticity, of_grey = (np.abs(measure(found) - measure(exact)) for measure in (chromaticity, grey_levels))
-    print("largest errors: chromaticity", of_chromaticity.max(), "grey levels", of_grey.max(0))
+    print(
+        "largest errors: chromaticity",
+        np.abs(chromaticity(found) - chromaticity(exact)).max(),
+        "grey levels",
+        np.abs(grey_levels(found) - grey_levels(exact)).max(0),
+    )
 
 
 if __name__ == "__main__":

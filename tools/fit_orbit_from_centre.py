@@ -25,9 +25,8 @@ def longest_half_angle(kappa: float) -> float:
     return 0.5 * min(np.pi, quad(lambda u: 1.0 / np.sqrt(u**3 - u * u + kappa), 0.0, 1.0, limit=200)[0])
 
 
-def orbit_rate(_: float, state: np.ndarray, kappa: float) -> list[float]:
-    """(r', r'') of the state (r, r'): r'' = ½ − r + 2κr³."""
-    return [state[1], 0.5 - state[0] + 2.0 * kappa * state[0] ** 3]
+def _orbit(_: float, y: np.ndarray, kappa: float) -> list[float]:
+    return [y[1], 0.5 - y[0] + 2.0 * kappa * y[0] ** 3]
 
 
 def samples() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -36,7 +35,7 @@ def samples() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     for kappa in KAPPAS:
         phi = longest_half_angle(kappa) * (0.5 - 0.5 * np.cos(np.pi * (np.arange(40) + 0.5) / 40))
         phi = phi[phi > 0.05]
-        found = solve_ivp(orbit_rate, (0.0, phi[-1]), [0.0, 0.0], "DOP853", phi, args=(kappa,), rtol=1e-13, atol=1e-15)
+        found = solve_ivp(_orbit, (0.0, phi[-1]), [0.0, 0.0], "DOP853", phi, args=(kappa,), rtol=1e-13, atol=1e-15)
         p = np.sin(0.5 * phi) ** 2
         rows.append(np.stack([p, kappa * p**3, found.y[0] / p - 1.0]))
     p, e, excess = np.concatenate(rows, axis=1)

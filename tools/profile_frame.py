@@ -11,7 +11,6 @@ from __future__ import annotations
 import argparse
 import time as clock
 from collections import defaultdict
-from collections.abc import Callable
 from functools import partial
 
 from blackhole_gl.render import frame, programs
@@ -42,7 +41,7 @@ class Profile:
 
         kept.get = named
 
-    def timed(self, name: str, work: Callable[[], object]) -> None:
+    def timed(self, name, work):
         """Does `work` and keeps what it took, in milliseconds."""
         self._ctx.finish()
         wall, processor = clock.perf_counter(), clock.process_time()

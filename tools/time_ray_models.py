@@ -60,8 +60,10 @@ def main() -> None:
     for way, scene in ways.items():
         found = listed_rays.trace_by_shader(renderer, scene, chart_scene.rays)
         far, near = (errors.compare(found, chart_scene.truth, part) for part in (away, ~away))
-        errors = f"{far.direction_99:16.1e}{far.direction_99 / chart_scene.pixel:10.3f}{far.crossing_r_99:18.1e}"
-        print(f"{way:24s}{costs[way]:6.0f}{errors}{near.direction_median:36.1e}{near.wrong_fates:14.3f}")
+        print(
+            f"{way:24s}{costs[way]:6.0f}{far.direction_99:16.1e}{far.direction_99 / chart_scene.pixel:10.3f}{far.crossing_r_99:18.1e}"
+            f"{near.direction_median:36.1e}{near.wrong_fates:14.3f}"
+        )
     renderer.release()
 
 

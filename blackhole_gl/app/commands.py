@@ -88,16 +88,18 @@ def toggle_pause(state: WindowState) -> None:
     state.paused = not state.paused
 
 
+_POSE = ("camera.distance", "camera.inclination_deg", "camera.azimuth_deg")
+
+
 def reset_camera(state: WindowState) -> None:
     """Sends the camera back to where the home scene has it, the short way round."""
-    home = state.home.camera
-    pose_keys = {"camera.distance": home.distance, "camera.inclination_deg": home.inclination_deg, "camera.azimuth_deg": home.azimuth_deg}
-    view = {"camera.fov_deg": home.fov_deg, "camera.observer": home.observer}
-    if math.isinf(home.distance) or math.isinf(state.scene.camera.distance):
+    home = {key: state.home.get(key) for key in fields() if key.startswith("camera.")}
+    pose_keys = {key: home.pop(key) for key in _POSE}
+    if math.isinf(pose_keys["camera.distance"]) or math.isinf(state.scene.camera.distance):
         # There is no way between a near and an infinitely far camera.
-        state.change({**pose_keys, **view, "camera.field_m": home.field_m})
+        state.change({**pose_keys, **home})
         return
-    state.change(view)
+    state.change(home)
     pose = pose_of(state.scene.with_values(pose_keys))
     here = state.motion.current
     turns = round((here.azimuth - pose.azimuth) / 360.0)

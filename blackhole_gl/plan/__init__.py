@@ -1,6 +1,18 @@
 """How a scene's rays are traced, and why: one `Plan` a frame."""
 
 from .make import MARCH_BOUND, forget_measurements, plan, refine_px, unfit_options
-from .record import INNERMOST_CROSSING, MERIDIAN, REFINE_STEP, WORLD, Plan
+from .record import GRID_MARGIN, INNERMOST_CROSSING, MERIDIAN, REFINE_STEP, WORLD, Plan
 
-__all__ = ["INNERMOST_CROSSING", "MARCH_BOUND", "MERIDIAN", "REFINE_STEP", "WORLD", "Plan", "forget_measurements", "plan", "refine_px", "unfit_options"]
+__all__ = [
+    "GRID_MARGIN",
+    "INNERMOST_CROSSING",
+    "MARCH_BOUND",
+    "MERIDIAN",
+    "REFINE_STEP",
+    "WORLD",
+    "Plan",
+    "forget_measurements",
+    "plan",
+    "refine_px",
+    "unfit_options",
+]

@@ -13,6 +13,9 @@ from ..scene.traits import IntegratorTraits, RayModelTraits, StepControlTraits
 REFINE_STEP = 4
 """Pixels between the exact rays of a refined hit map's coarse grid."""
 
+GRID_MARGIN = 2
+"""Nodes of that grid outside the picture on each side: those whose differences the picture's edge needs, and what they are differences from."""
+
 INNERMOST_CROSSING = 1.02
 """The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge."""
 

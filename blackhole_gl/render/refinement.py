@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
-from ..plan import REFINE_STEP
+from ..plan import GRID_MARGIN, REFINE_STEP
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
@@ -77,7 +77,8 @@ class CoarseGrid:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
         inputs = rays.inputs
         made = self._targets(inputs.size, textures(inputs.plan.orders))
-        rays.set(ray_grid=(REFINE_STEP, -REFINE_STEP, -REFINE_STEP))
+        first = -GRID_MARGIN * REFINE_STEP
+        rays.set(ray_grid=(REFINE_STEP, first, first))
         made.rays.frame.use()
         rays.draw()
         self._make_nodes(inputs, made)
@@ -163,7 +164,7 @@ class CoarseGrid:
 
     def _make(self, size: tuple[int, int], count: int) -> _Made:
         cells = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
-        nodes = cells[0] + 3, cells[1] + 3
+        nodes = cells[0] + 1 + 2 * GRID_MARGIN, cells[1] + 1 + 2 * GRID_MARGIN
         kinds = self._texture(nodes, 1, "u4")
         node_textures = {name: self._texture(nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
         for texture in node_textures.values():

@@ -72,7 +72,7 @@ class ShadePass:
             ctx.enable(moderngl.BLEND)
             # The disk, things and media, and what they let through of the sky behind them: of all colours alike, or of each its own.
             ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
-            disk = self._prepared("shade_disk.frag", inputs, hit_map, hit_map.switches())
+            disk = self._prepared("shade_matter.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not

@@ -12,7 +12,7 @@ from functools import cache
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
 from ..physics import observer, shear
-from ..plan import INNERMOST_CROSSING, REFINE_STEP, Plan
+from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
 from . import instances
@@ -167,7 +167,8 @@ def scene_values(plan: Plan) -> dict[str, object]:
 
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0, "REFINE_STEP": REFINE_STEP}
+    found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0}
+    found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN}
     found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():

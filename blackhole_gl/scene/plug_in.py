@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from . import headers, parameters
 from .headers import CatalogueError
-from .schema import Field
+from .schema import Field, nearest
 from .tables import Number, Table
 from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits, Traits
 
@@ -121,6 +121,9 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         raise CatalogueError(f"{place}: slot is {about.slot!r}, but its folder holds {slot!r}")
     traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, place)
     declared = {part: _declared(header, part, place) for part in _DECLARED}
+    known = _parameters(declared["parameters"], slot, file.stem, place)
+    if isinstance(traits, ThingTraits | MediumTraits):
+        _refuse_unknown_reach(traits.reach, known, place)
     path = file.relative_to(root).as_posix()
     return PlugIn(
         file.stem,
@@ -132,10 +135,17 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         about.source,
         about.rank,
         traits,
-        _parameters(declared["parameters"], slot, file.stem, place),
+        known,
         tuple(headers.record(Table, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["tables"].items()),
         tuple(headers.record(Number, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["numbers"].items()),
     )
+
+
+def _refuse_unknown_reach(reach: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:
+    numbers = [name for name, item in known.items() if item.kind in ("float", "int")]
+    for name in reach:
+        if name not in numbers:
+            raise CatalogueError(f"{place}: reach: got {name!r}; allowed are its parameters that are numbers: {', '.join(numbers)}{nearest(name, numbers)}")
 
 
 def _declared(header: Mapping[str, Any], part: str, place: str) -> Mapping[str, Mapping[str, Any]]:

@@ -11,7 +11,7 @@
 //   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2 (which is never interpolated: it is seen in the thinnest of rings)
 //   bit 8               some crossing may lie on the disk
 //
-// The grid begins one node outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − 1, j − 1), and texel (i, j)
+// The grid begins GRID_MARGIN nodes outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − GRID_MARGIN, j − GRID_MARGIN), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
 
 const uint CROSSING_NONE = 0u;

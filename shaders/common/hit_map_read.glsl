@@ -61,7 +61,7 @@ uint cell_of(ivec2 pixel) {
 
 // Where the coarse textures hold the pixel, for filtering.
 vec2 place_in_grid(ivec2 pixel) {
-    return (vec2(pixel) / float(REFINE_STEP) + 1.5) / vec2(textureSize(coarse0, 0));
+    return (vec2(pixel) / float(REFINE_STEP) + float(GRID_MARGIN) + 0.5) / vec2(textureSize(coarse0, 0));
 }
 
 // Between nodes v is v_linear − s(1 − s)/2 · v_xx − t(1 − t)/2 · v_yy, the second differences v_xx and v_yy (`bend`) linear as well:

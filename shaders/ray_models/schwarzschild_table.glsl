@@ -34,13 +34,14 @@ float swept_angle(float ratio) {
 }
 
 #if ORDERS > 0
-// `radius` as (numerator, denominator); `node` is the unit vector of the crossing in z = 0; `onward` the unit vector that the ray turns to there; `state` (u, du/dφ) as
-// good as the other sums allow: it gives the sign of du/dφ, whose size follows from the orbit's equation.
+// `radius` as (numerator, denominator); `node` is the unit vector of the crossing in z = 0; `onward` the unit vector that the ray turns to there; `state` is
+// (u, du/dφ) there as good as the other sums allow. The orbit's equation knows the size of du/dφ better but beside a turning point, where it is a small root.
 void add_kept(bool there, vec2 radius, vec2 node, vec3 onward, vec2 state, float root_kappa, inout Hits hits) {
     if (!there || radius.y <= 0.0 || radius.y * crossing_r_min >= radius.x) return;
     float r = radius.x / radius.y, u = 1.0 / r;
-    float w_rate = sqrt(max(1.0 - u * u * (1.0 - u) / (root_kappa * root_kappa), 0.0));
-    add_crossing(hits, r * node, Momentum(state.y < 0.0 ? -w_rate : w_rate, (2.0 / root_kappa) * onward));
+    float square = 1.0 - u * u * (1.0 - u) / (root_kappa * root_kappa), rate = state.y / root_kappa;
+    float w_rate = square > 0.05 ? sqrt(square) * sign(rate) : rate;
+    add_crossing(hits, r * node, Momentum(w_rate, (2.0 / root_kappa) * onward));
 }
 
 // The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets z = 0 first. The first is reached from the camera, the last from the

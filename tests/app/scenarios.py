@@ -428,7 +428,7 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     assert list(hands.scene.things) == ["luna"] and hands.scene.get("things.luna.radius") == 2.5
     hands.choose("##things.luna.kind", "Cube##cube", table="values of things.luna/")
     assert dict(hands.scene.things["luna"].values) == {"edge": 2.0, "radius": 0.5, "glows": True}
-    hands.click("Add##things")
+    hands.click("Add##things")  # the kind picked last
     assert list(hands.scene.things) == ["luna", "sphere"], "a name that is free is given where none is typed"
     hands.fill("##name of things.sphere", "luna")
     assert hands.state.notice.is_error and "things.luna: there is one already" in hands.state.notice.text
@@ -436,6 +436,7 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     assert list(hands.scene.things) == ["sphere"]
     hands.click("Paste TOML")
     assert hands.scene == saved
+    hands.choose("##kind of new media", "Cloud##cloud", table="")
     hands.click("Add##media")
     assert hands.scene.media["cloud"].kind == "cloud"
 

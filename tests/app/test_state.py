@@ -49,6 +49,15 @@ def test_word_of_success_leaves(state):
     assert state.notice is None
 
 
+def test_reset_brings_back_everything_of_the_camera(state):
+    away = {"camera.yaw_deg": 30.0, "camera.pitch_deg": -5.0, "camera.roll_deg": 12.0, "camera.fov_deg": 20.0, "camera.observer": "zamo"}
+    state.change({**away, "camera.distance": 40.0})
+    commands.reset_camera(state)
+    for _ in range(200):
+        advance(state, Hand(), 0.05)
+    assert state.scene.camera == state.home.camera
+
+
 def test_reset_goes_the_short_way_round(state):
     state.change({"camera.azimuth_deg": 170.0})
     advance(state, Hand(held=("orbit_right",)), 1.0)

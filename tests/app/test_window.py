@@ -38,7 +38,7 @@ def test_scenarios_with_a_pretended_renderer(names, tmp_path):
 def test_scenarios_with_kinds_of_the_users_own(tmp_path):
     shaders = kinds.put(tmp_path)
     (shaders / "skies").mkdir()
-    (shaders / "skies" / "wrong.glsl").write_text(kinds.CLOUD.replace("medium", "sky").replace("[parameters", "colour = 3\n[parameters"), encoding="utf-8")
+    (shaders / "skies" / "wrong.glsl").write_text(kinds.CLOUD.replace("medium", "sky").replace("reach = []", "colour = 3"), encoding="utf-8")
     run(WITH_KINDS, tmp_path)
 
 

@@ -66,8 +66,10 @@ def test_golden_picture(renderer: Renderer, request: pytest.FixtureRequest, name
     mean, share = difference.mean(), np.mean(difference.max(axis=-1) > MOST)
     if mean > MEAN or share > SHARE:
         places = leave(name, found, golden, difference)
-        found = f"mean difference {mean:.2f} (allowed {MEAN}), {share:.2%} of the pixels off by more than {MOST} (allowed {SHARE:.0%})"
-        pytest.fail(f"{name}: {found}; see {places}", pytrace=False)
+        pytest.fail(
+            f"{name}: mean difference {mean:.2f} (allowed {MEAN}), {share:.2%} of the pixels off by more than {MOST} (allowed {SHARE:.0%}); see {places}",
+            pytrace=False,
+        )
 
 
 def leave(name: str, found: np.ndarray, golden: np.ndarray, difference: np.ndarray) -> str:

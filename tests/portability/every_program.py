@@ -12,7 +12,7 @@ from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.resources import presets_dir
-from blackhole_gl.scene import Scene, catalogue, fields, presets
+from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
 
 Wanted = tuple[str, str, Plan, Mapping[str, int]]
 """A program's path, what it is for, the plan that shapes it, the switches beyond the scene's own."""
@@ -62,7 +62,7 @@ def collect() -> Mapping[tuple[str, str], str]:
     """(vertex text, fragment text) → path and scene of every program."""
     recorder = Recorder()
     programs = Programs(recorder)
-    for path, name, made, switches in itertools.chain(_of_scenes(), _of_views(), _of_methods()):
+    for path, name, made, switches in itertools.chain(_of_scenes(), _of_instances(), _of_views(), _of_methods()):
         recorder.asked = f"{path} for {name}"
         programs.get(path, FrameInputs.whole(made, 0.0, (16, 16)), switches)
     return recorder.texts
@@ -81,7 +81,7 @@ def _readers(made: Plan) -> Iterator[tuple[str, int]]:
     yield "shade_classes.frag", 0
     yield "refine_resolve.frag", 1
     if made.orders:
-        yield from (("shade_disk.frag", refined) for refined in (0, 1))
+        yield from (("shade_matter.frag", refined) for refined in (0, 1))
     if made.scene.sky.enabled:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
 
@@ -95,6 +95,20 @@ def _scenes() -> Iterator[tuple[str, Scene]]:
         options = {"choice": item.options, "switch": (False, True)}.get(item.kind, ())
         if not key.startswith(("rays.model", "rays.integrator", "rays.step_control", "post.view")):
             yield from ((f"{key} = {value}", kerr.with_values({key: value})) for value in options)
+
+
+def _of_instances() -> Iterator[Wanted]:
+    """What a thing or a medium of every kind adds, by every ray model that can meet one."""
+    for slot, section in (("thing", "things"), ("medium", "media")):
+        for kind, model in itertools.product(catalogue.keys(slot), catalogue.keys("ray_model")):
+            scene = presets.load(["kerr"], {"rays.model": model, f"{section}.one.kind": kind, f"{section}.two.kind": kind})
+            try:
+                made = plan(scene)
+            except SceneError:
+                continue  # this model cannot
+            drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
+            for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1})):
+                yield path, f"{kind} by {model}", made, switches
 
 
 def _of_views() -> Iterator[Wanted]:

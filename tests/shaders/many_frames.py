@@ -2,8 +2,10 @@
 
     python tests/shaders/many_frames.py 10000
 
-Prints a line of JSON at the end of each tenth: frames drawn, resident memory in MB, and the living GL objects of each kind. A process of its own, as others
-would leave their memory behind. Linux with EGL.
+Prints a line of JSON at the end of each tenth: frames drawn, resident memory in MB, and the living GL objects of each kind. A process of its own, as
+others would
+leave
+their memory behind. Linux with EGL.
 """
 
 import ctypes

@@ -17,8 +17,9 @@ from blackhole_gl.scene import presets
 def test_still_frames_keep_the_hit_map_and_moving_ones_trace(renderer: Renderer) -> None:
     found = bench.measure(renderer, presets.load(["schwarzschild"]), [(64, 36), (96, 54)], rounds=1, euler=False)
     names = list(bench.scenes(presets.load(["schwarzschild"])))
-    wanted = [(width, motion, name) for width in (64, 96) for motion in ("still", "moving") for name in names]
-    assert [(row.width, row.motion, row.scene) for row in found.rows] == wanted
+    assert [(row.width, row.motion, row.scene) for row in found.rows] == [
+        (w, motion, name) for w in (64, 96) for motion in ("still", "moving") for name in names
+    ]
     assert all(row.ratio == 1.0 for row in found.rows if row.scene == bench.YARDSTICK)
     assert all(row.milliseconds > 0.0 and row.processor_ms > 0.0 for row in found.rows)
     assert found.euler_ms is None and all(row.trace_in_e is None for row in found.rows)

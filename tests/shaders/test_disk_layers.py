@@ -32,14 +32,14 @@ void main() {
 #each disk_layer : matter = disk_layer_$key(matter);
     o = vec4(matter.density);
 }
-"""
+""".replace("SIZE", f"{WIDTH}.0, {HEIGHT}.0")
 
 
 @pytest.fixture()
 def density(ctx, tmp_path):
     """(layer, time, azimuths, radii, footprint, uniforms) → density (HEIGHT, WIDTH)."""
     path = tmp_path / "layer.frag"
-    path.write_text(SNIPPET.replace("SIZE", f"{WIDTH}.0, {HEIGHT}.0"))
+    path.write_text(SNIPPET)
 
     def run(layer: str, time: float = 0.0, azimuths=(0.0, 2 * math.pi), radii=(3.2, 9.8), footprint=(2e-3, 2e-3), **uniforms) -> np.ndarray:
         ages, weights, seeds = shear_phases(time)

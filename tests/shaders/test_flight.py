@@ -93,9 +93,10 @@ def test_the_plot_shows_every_part(tmp_path: Path) -> None:
 def test_refinement_adds_no_shimmer(renderer: Renderer, scene: Scene, index: int, step_px: float) -> None:
     """The camera tilts by a part of a pixel a frame, so that pixels pass from cell to cell; the disk stands still.
 
-    The whole picture changes by no more than the exact one, to half a per cent: what is left when the noise of 8 bits is counted in both. That is of the mean
-    of four patterns of the disk, as single ones scatter by one per cent to both sides. No block flickers more than the exact one's by what would show. Both
-    are seen in the change from frame to frame and in the change of that, where what comes and goes is not hidden by what moves.
+    The whole picture changes by no more than the exact one, to half a per cent: what is left when the noise of 8 bits is counted in both. That is of the
+    mean of four patterns of the disk, as single ones scatter by one per cent to both sides. No block flickers more than the exact one's by what would
+    show. Both are
+    seen in the change from frame to frame and in the change of that, where what comes and goes is not hidden by what moves.
     """
     start = flight.camera_at(scene, index / COUNT)
     turn = step_px * start.camera.fov_deg / SMALL[1]

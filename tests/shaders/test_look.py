@@ -92,6 +92,12 @@ def test_refined_hits_stay_within_the_tolerance_wherever_one_looks(renderer: Ren
     _assert_refined_within_tolerance(renderer, _looking(*look, hole__spin=spin, camera__fov_deg=90.0))
 
 
+@pytest.mark.parametrize("look, values", [((151.37, -39.167), {"hole__spin": 0.998, "camera__distance": 2.5, "camera__fov_deg": 90.0}), ((41.1, 7.0), {})])
+def test_what_bends_at_the_edge_of_the_picture_is_judged_as_elsewhere(renderer: Renderer, look: tuple[float, float], values: dict[str, float]) -> None:
+    """A corner of a cell there shares its quad with a node outside the picture, whose differences it needs."""
+    _assert_refined_within_tolerance(renderer, _looking(*look, **values))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("look", LOOKS, ids=str)
 @pytest.mark.parametrize("spin", SPINS)

@@ -106,8 +106,9 @@ def test_the_disk_and_a_ring_in_its_plane_are_met_alike(renderer: Renderer, mode
 def test_what_is_nearer_along_the_ray_hides_what_is_farther(renderer: Renderer) -> None:
     """A ring round the disk, tilted: before the hole it hides the disk, behind it the disk's near part hides the ring."""
     scene = presets.load(["kerr", "smooth"], {"disk.opacity": 1.0, "camera.inclination_deg": 80.0})
-    ring = {"things.ring.kind": "annulus", "things.ring.inner_radius": 11.0, "things.ring.outer_radius": 13.0, "things.ring.tilt_deg": 30.0}
-    with_ring = scene.with_values(ring)
+    with_ring = scene.with_values(
+        {"things.ring.kind": "annulus", "things.ring.inner_radius": 11.0, "things.ring.outer_radius": 13.0, "things.ring.tilt_deg": 30.0}
+    )
     renderer.render(with_ring, 0.0, (240, 135))
     hits = renderer.hits()
     met, crossed = hits.met[..., 0, 0] >= 0, np.linalg.norm(hits.crossing[..., 0, :], axis=-1)
@@ -122,8 +123,13 @@ def test_a_ring_that_shows_no_pixel_changes_none(renderer: Renderer) -> None:
     scene = presets.load(["kerr"], {"camera.azimuth_deg": 0.0})
     renderer.render(scene, 0.0, (160, 90))
     plain = renderer.hits()
-    place = {"things.ring.tilt_deg": 90.0, "things.ring.node_deg": 90.0}
-    ring = {"things.ring.kind": "annulus", "things.ring.inner_radius": 900.0, "things.ring.outer_radius": 901.0, **place}
+    ring = {
+        "things.ring.kind": "annulus",
+        "things.ring.inner_radius": 900.0,
+        "things.ring.outer_radius": 901.0,
+        "things.ring.tilt_deg": 90.0,
+        "things.ring.node_deg": 90.0,
+    }
     renderer.render(scene.with_values(ring), 0.0, (160, 90))
     found = renderer.hits()
     seen = found.fate == Fate.MET

@@ -34,9 +34,9 @@ def test_a_refined_map_shows_the_picture_of_the_exact_one(renderer: Renderer, vi
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_disk_and_sky_are_drawn_wherever_there_is_light(renderer: Renderer, view: str) -> None:
-    """Of an additive disk the picture is the disk's alone and the sky's alone, added up. Half floats: 2⁻¹⁰.
+    """Of an additive disk the picture is the disk's alone and the sky's alone, added up.
 
-    The method is stated: without a disk the plan may choose another.
+    Half floats: 2⁻¹⁰. The method is stated: without a disk the plan may choose another.
     """
     clear = {**VIEWS[view], "disk.compositing": "additive", "rays.model": "kerr", "rays.integrator": "rk4", "rays.step_angle": 0.2}
     both = _radiance(renderer, clear)

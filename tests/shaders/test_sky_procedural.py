@@ -30,14 +30,14 @@ void main() {
     vec3 d = ray(gl_FragCoord.xy);
     o = vec4(sky_radiance(d, blur * (ray(gl_FragCoord.xy + vec2(1.0, 0.0)) - d), blur * (ray(gl_FragCoord.xy + vec2(0.0, 1.0)) - d), energy), 1.0);
 }
-"""
+""".replace("SIZE", f"{SIZE[0]}.0, {SIZE[1]}.0")
 
 
 @pytest.fixture(scope="module")
 def sky(ctx, tmp_path_factory):
     """(forward, turn in pixels (right, up), uniforms) → radiance (256, 256, 3)."""
     path = tmp_path_factory.mktemp("sky") / "sky.frag"
-    path.write_text(SNIPPET.replace("SIZE", f"{SIZE[0]}.0, {SIZE[1]}.0"))
+    path.write_text(SNIPPET)
     piece = Piece(ctx, path, chosen={"sky": ["skies/procedural.glsl"]})
 
     def run(forward, turn=(0.0, 0.0), pixel=PIXEL, energy=1.0, blur=1.0, squeeze=1.0, stars=1.0, galaxy=0.0) -> np.ndarray:

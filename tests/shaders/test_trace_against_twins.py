@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import listed_rays
+from blackhole_gl.physics import relativity
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import random_rays
@@ -17,6 +18,9 @@ CROSSING_99, G_99 = 2e-5, 2e-5  # relative
 # A crossing at r lies where the ray has come down to the plane at an angle of about b/r: what one rounding of a float32 direction
 # moves it by grows with r. The bound is relative up to here, five times as far as the largest disk, and grows with r beyond.
 FAR = 100.0
+
+# Just above the horizon k_r and the azimuth of a crossing have a pole, and follow the least change of its radius.
+NEAR = 1.5
 
 # model, a*, inclination in degrees, distance in r_s, observer
 SCENES = [
@@ -53,8 +57,36 @@ def test_listed_rays_against_the_twin(renderer: Renderer, model: str, spin: floa
     twin = listed_rays.trace_by_reference(scene, rays)
     _agree(found, twin, f"{model}, a* = {spin:g}, r = {distance:g} r_s, i = {inclination:g}°, {observer}")
     turned = np.abs(np.exp(1j * found.crossing_phi) - np.exp(1j * twin.crossing_phi))
-    # Just above the horizon a crossing's azimuth winds up: dφ/dr has a pole there.
-    assert np.nanquantile(turned[twin.crossing_r > 1.5], 0.99) <= CROSSING_99
+    assert np.nanquantile(turned[twin.crossing_r > NEAR], 0.99) <= CROSSING_99
+
+
+# k_r and k_θ against the twin, relative to the larger of k_r r and k_θ; and how far the photon is from null, relative to the largest term.
+MOMENTUM_99, NULL_99 = 1e-5, 1e-5
+
+
+@pytest.mark.parametrize("model", ["kerr", "kerr_schild", "schwarzschild", "schwarzschild_binet", "schwarzschild_table", "kerr_like", "flat"])
+@pytest.mark.parametrize("distance, inclination", [(20.0, 75.0), (4.0, 100.0)])
+def test_crossings_have_the_twin_s_momentum_and_it_is_null(renderer: Renderer, model: str, distance: float, inclination: float) -> None:
+    spins = (0.5, 0.998) if model.startswith("kerr") else (0.0,)
+    for spin in spins:
+        changes = {"rays.model": model, "hole.spin": spin, "camera.distance": distance, "camera.inclination_deg": inclination}
+        scene = presets.load(["kerr", "reference"], changes)
+        rays = random_rays(scene, 1000, seed=21)
+        found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+        there = np.isfinite(found.crossing_r) & np.isfinite(twin.crossing_k_r) & np.isfinite(twin.crossing_k_theta) & (twin.crossing_r < FAR)
+        there &= twin.crossing_r > NEAR
+        assert there.sum() > 300
+        r = 2.0 * twin.crossing_r[there]  # M
+        k_r, k_theta, lam = (np.broadcast_to(values, there.shape)[there] for values in (found.crossing_k_r, found.crossing_k_theta, found.lambda_[:, None]))
+        size = np.maximum(np.abs(twin.crossing_k_r[there]) * r, np.abs(twin.crossing_k_theta[there]))
+        off_r = np.quantile(np.abs(k_r - twin.crossing_k_r[there]) * r / size, 0.99)
+        off_theta = np.quantile(np.abs(k_theta - twin.crossing_k_theta[there]) / size, 0.99)
+        print(f"{model}, a* = {spin:g}, r = {distance:g} r_s: 99 % of k_r {off_r:.1e}, of k_θ {off_theta:.1e}")
+        assert off_r < MOMENTUM_99 and off_theta < MOMENTUM_99
+        a, mass = (spin if model in ("kerr", "kerr_schild") else 0.0), (0.0 if model == "flat" else 1.0)
+        off = relativity.null_residual(found.crossing_r[there], found.crossing_theta[there], a, lam, k_r, k_theta, mass=mass)
+        assert np.quantile(np.abs(off), 0.99) < NULL_99
+        assert np.all(np.isnan(found.crossing_k_r) == np.isnan(found.crossing_r))
 
 
 @pytest.mark.parametrize("spin, inclination", [(0.0, 60.0), (0.9, 17.0), (-0.998, 85.0)])

@@ -109,8 +109,9 @@ def test_conserved_quantities_drift_by_rounding_alone_unless_steps_are_long(rend
     """1e-5 is a hundred roundings of a float32; what rk4 loses at the longest steps is far above."""
     drift = {}
     for step in (0.05, 0.8):
-        steps = {"rays.step_angle": step, "rays.step_length": step}
-        drawn(renderer, scene_with("conservation", model, **{"rays.integrator": "rk4", **steps, "disk.enabled": False}))
+        drawn(
+            renderer, scene_with("conservation", model, **{"rays.integrator": "rk4", "rays.step_angle": step, "rays.step_length": step, "disk.enabled": False})
+        )
         drift[step] = np.frombuffer(renderer.hit_map.textures[1].read(), np.float32).reshape(*SIZE[::-1], 4)[..., 3]
     assert drift[0.05].min() >= 0.0 and np.quantile(drift[0.05], 0.99) < 1e-5
     assert np.quantile(drift[0.8], 0.99) > 1e-4

@@ -1,4 +1,4 @@
-"""Kinds of things and media in a shader folder of the user's, for tests: none is shipped that has every kind of value."""
+"""Kinds of things and media in a shader folder of the user's, for tests: no shipped one has every kind of value."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ label = "Sphere"
 summary = "A ball."
 source = "own"
 slot = "thing"
+reach = ["radius"]
 
 [parameters.radius]
 default = 1.0
@@ -67,6 +68,7 @@ label = "Cube"
 summary = "A box."
 source = "own"
 slot = "thing"
+reach = ["edge"]
 opaque = false
 
 [parameters.edge]
@@ -90,6 +92,7 @@ label = "Cloud"
 summary = "A haze."
 source = "own"
 slot = "medium"
+reach = []
 
 [parameters.density]
 default = 1.0
@@ -110,12 +113,14 @@ def put(folder: Path) -> Path:
 
 @pytest.fixture
 def known_kinds(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Sphere, cube and cloud are known while a test runs; the configuration folder that they lie in."""
+    """Sphere, cube and cloud, and no other kinds, are known while a test runs; the configuration folder that they lie in."""
     folder = tmp_path_factory.mktemp("config")
     monkeypatch.setenv("BLACKHOLE_GL_CONFIG_DIR", str(folder))
     found = catalogue.read(shaders_dir(), put(folder))
     assert found.mistakes == ()
-    monkeypatch.setattr(catalogue, "_catalogue", lambda: found)
+    own = {slot: {key: kind for key, kind in found.plug_ins[slot].items() if kind.file.is_relative_to(folder)} for slot in ("thing", "medium")}
+    known = catalogue.Catalogue({**found.plug_ins, **own}, ())
+    monkeypatch.setattr(catalogue, "_catalogue", lambda: known)
     instances._fields_of.cache_clear()
     yield folder
     instances._fields_of.cache_clear()

@@ -21,8 +21,9 @@ def test_only_what_is_mentioned_is_carried() -> None:
 @pytest.mark.parametrize("many", [1, 40])
 def test_every_number_arrives_whole(ctx: moderngl.Context, many: int) -> None:
     """`many` floats beside one of each other kind: few enough to be carried, and too many."""
-    more = ((f"more_{k}", "float") for k in range(many))
-    block = Block("Numbers", 0, (("single", "float"), ("m", "mat4"), ("count", "int"), ("pair", "vec2"), ("four", "vec4"), *more))
+    block = Block(
+        "Numbers", 0, (("single", "float"), ("m", "mat4"), ("count", "int"), ("pair", "vec2"), ("four", "vec4"), *((f"more_{k}", "float") for k in range(many)))
+    )
     rng = np.random.default_rng(3)
     values = {name: rng.integers(-(2**23), 2**23, KINDS[kind]) for name, kind in block.members}
     made = carry((block,), frozenset(values))

@@ -32,6 +32,17 @@ step_control = "even"
 """
 
 
+WITH_SIZE = """reach = ['size']
+[parameters.size]
+default = 2.0
+range = [1, 9]
+help = 'H.'
+[parameters.soft]
+default = true
+help = 'H.'
+"""
+
+
 @pytest.fixture
 def folders(tmp_path):
     """An empty shader folder of ours, but for one step control, and one of the user's."""
@@ -132,6 +143,11 @@ help = "Whether."
 
 def test_the_type_of_the_default_is_the_parameters(folders):
     more = """
+reach = ["size"]
+[parameters.size]
+default = 2
+range = [1, 9]
+help = "H."
 [parameters.pattern]
 default = "plain"
 options = ["plain", "chequered"]
@@ -157,7 +173,7 @@ columns.time = { default = 0.0, range = [0.0, 1e6], help = "When." }
 columns.ease = { default = "smooth", options = ["smooth", "linear"], help = "How." }
 """
     parameters = made(folders, more, "thing").parameters
-    assert {name: item.kind for name, item in parameters.items()} == dict(pattern="choice", caption="text", image="file", radii="list", path="list")
+    assert {name: item.kind for name, item in parameters.items()} == dict(size="int", pattern="choice", caption="text", image="file", radii="list", path="list")
     allowed = {name: item.allowed() for name, item in parameters.items()}
     assert allowed["pattern"] == "one of plain, chequered"
     assert allowed["caption"] == "text of at most 80 characters"
@@ -214,7 +230,11 @@ def test_a_wrong_parameter_names_file_entry_and_what_is_allowed(folders, entry, 
         ("disk_layer", "[parameters]\ndepth = 3", "parameters.depth: got 3; allowed is a table"),
         ("disk_layer", '[parameters."a b"]', "parameters: got 'a b'; allowed are names of letters"),
         ("disk_layer", "[parameters.enabled]\ndefault = true\nhelp = 'H.'", "parameters.enabled: 'enabled' has another meaning here"),
-        ("thing", "[parameters.kind]\ndefault = true\nhelp = 'H.'", "parameters.kind: 'kind' has another meaning here"),
+        ("thing", "opaque = true", r"the header lacks 'reach'; allowed is a list"),
+        ("medium", "reach = ['size']", "reach: got 'size'; allowed are its parameters that are numbers: "),
+        ("thing", WITH_SIZE.replace("'size'", "'sise'"), r"reach: got 'sise'; allowed are its parameters that are numbers: size; did you mean size\?"),
+        ("thing", WITH_SIZE.replace("'size'", "'soft'"), "reach: got 'soft'; allowed are its parameters that are numbers: size"),
+        ("thing", "reach = []\n[parameters.kind]\ndefault = true\nhelp = 'H.'", "parameters.kind: 'kind' has another meaning here"),
         ("disk_layer", "enabled = 1", "enabled: got 1; allowed is true or false"),
         ("disk_layer", "opaque = true", "got the entry 'opaque'; allowed are label"),
         ("disk_layer", "[tables]\nhue = 3", "tables.hue: got 3; allowed is a table"),
@@ -245,7 +265,7 @@ def test_a_wrong_entry_names_file_entry_what_was_given_and_what_is_allowed(folde
 
 def test_traits_have_defaults_where_a_header_need_not_say(folders):
     assert made(folders, "").traits == DiskLayerTraits(enabled=False)
-    assert made(folders, "", "thing").traits == ThingTraits(opaque=True)
+    assert made(folders, WITH_SIZE, "thing").traits == ThingTraits(reach=("size",), opaque=True)
     integrator = made(folders, 'order = 2\nevaluations = 2\nfits = ["cartesian"]', "integrator").traits
     assert integrator == IntegratorTraits(order=2, evaluations=2, fits=("cartesian",))
 

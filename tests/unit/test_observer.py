@@ -82,8 +82,7 @@ def test_the_zamo_sees_no_angular_momentum_of_its_own():
 
 
 @pytest.mark.parametrize(
-    "inclination, distance, kind",
-    [(90.0, 1.0001, "static"), (90.0, 0.95, "zamo"), (90.0, 0.8, "zamo"), (0.0, 0.8, "static"), (5.0, 0.73, "static")],
+    "inclination, distance, kind", [(90.0, 1.0001, "static"), (90.0, 0.95, "zamo"), (90.0, 0.8, "zamo"), (0.0, 0.8, "static"), (5.0, 0.73, "static")]
 )
 def test_in_the_ergosphere_the_static_observer_gives_way(inclination, distance, kind):
     assert distance > relativity.horizon_radius(0.9)

@@ -108,8 +108,7 @@ def test_every_value_in_range_is_taken(item: Field, share: float):
 
 @settings(max_examples=200)
 @given(
-    st.sampled_from(list(fields())),
-    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.lists(st.integers(), max_size=2)),
+    st.sampled_from(list(fields())), st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.lists(st.integers(), max_size=2))
 )
 def test_whatever_is_given_is_taken_whole_or_refused_with_a_sentence(key: str, value):
     try:
