@@ -113,7 +113,11 @@ def _open_platform(null_platform: bool) -> None:
     if null_platform:
         glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
     said: list[str] = []
-    glfw.set_error_callback(lambda code, text: said.append(text.decode("utf-8", "replace")))  # type: ignore[attr-defined]  # glfw hands over bytes, whatever its stubs say
+
+    def hear(code: int, text: Any) -> None:  # bytes, whatever glfw's stubs say
+        said.append(text.decode("utf-8", "replace"))
+
+    glfw.set_error_callback(hear)
     if not glfw.init():
         raise WindowError(f"no window can be opened: {said[-1] if said else 'GLFW does not start'}. Without a display, use `blackhole-gl render`.")
     if null_platform:
