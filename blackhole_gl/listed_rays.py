@@ -18,6 +18,7 @@ from .physics import observer
 from .physics.space_time import ray_model, space_time
 from .render.frame import Renderer
 from .scene import Scene
+from .shapes import Float, Int
 
 FATES = ("unresolved", "escaped", "captured")
 ANGLES = ("psi", "chi")
@@ -36,7 +37,7 @@ class TracedRays:
     Attributes:
         fate: int (N,), an index of `FATES`.
         direction: (N, 3) asymptotic unit vectors in the world; NaN unless escaped.
-        steps, evaluations: int (N,).
+        steps, evaluations: int (N,); of refined pictures float, the mean of all their pixels.
         crossing_r, crossing_phi, crossing_g: (N, 3); r in r_s, φ in radians (any branch), g = E_infinity/E_emitter of a circular
             emitter; NaN where there is none, and g also inside the ISCO.
         lambda_: (N,) L_z/E in M of the photon that arrives; NaN where the shader keeps no crossings, and with them no λ.
@@ -45,17 +46,17 @@ class TracedRays:
             of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric.
     """
 
-    fate: np.ndarray
-    direction: np.ndarray
-    steps: np.ndarray
-    evaluations: np.ndarray
-    crossing_r: np.ndarray
-    crossing_phi: np.ndarray
-    crossing_g: np.ndarray
-    lambda_: np.ndarray
-    crossing_theta: np.ndarray
-    crossing_k_r: np.ndarray
-    crossing_k_theta: np.ndarray
+    fate: Int[np.ndarray, " N"]
+    direction: Float[np.ndarray, "N 3"]
+    steps: Int[np.ndarray, " N"] | Float[np.ndarray, " N"]
+    evaluations: Int[np.ndarray, " N"] | Float[np.ndarray, " N"]
+    crossing_r: Float[np.ndarray, "N 3"]
+    crossing_phi: Float[np.ndarray, "N 3"]
+    crossing_g: Float[np.ndarray, "N 3"]
+    lambda_: Float[np.ndarray, " N"]
+    crossing_theta: Float[np.ndarray, "N 3"]
+    crossing_k_r: Float[np.ndarray, "N 3"]
+    crossing_k_theta: Float[np.ndarray, "N 3"]
 
 
 def columns(scene: Scene) -> tuple[str, str]:
@@ -63,7 +64,7 @@ def columns(scene: Scene) -> tuple[str, str]:
     return SCREEN if math.isinf(scene.camera.distance) else ANGLES
 
 
-def read(path: Path, scene: Scene) -> np.ndarray:
+def read(path: Path, scene: Scene) -> Float[np.ndarray, "N 2"]:
     """The rays of the CSV file at `path` as (N, 2) float64: ψ, χ in radians, or α, β in M for a camera at infinity.
 
     Raises:
@@ -92,12 +93,12 @@ def _number(text: str | None, path: Path, line: int, column: str) -> float:
     return value
 
 
-def local_vectors(rays: np.ndarray, scene: Scene) -> np.ndarray:
+def local_vectors(rays: Float[np.ndarray, "N 2"], scene: Scene) -> Float[np.ndarray, "N 3"]:
     """The local vectors (N, 3) of rays (N, 2) as `read` gives them."""
     return (observer.parallel_rays if columns(scene) == SCREEN else observer.local_directions)(rays[:, 0], rays[:, 1])
 
 
-def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> TracedRays:
+def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRays:
     """`rays` (N, 2) through the shader that pictures use."""
     if len(rays) == 0:
         return unknown(0)
@@ -122,7 +123,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> Trace
     )
 
 
-def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
+def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRays:
     """`rays` (N, 2) by the float64 twin of the scene's ray model.
 
     Raises:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from tests import shape_checks  # noqa: F401  # before what it checks is imported
+
+# isort: split
 import moderngl
 import pytest
 

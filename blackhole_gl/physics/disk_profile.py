@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..shapes import Float
 from . import relativity
 
 Array = np.ndarray
@@ -27,24 +28,26 @@ def _law(function: Law) -> Law:
 
 
 @_law
-def page_thorne(r: Array, spin: float, orbit: str, r_in: float) -> Array:
+def page_thorne(r: Float[Array, "*radii"], spin: float, orbit: str, r_in: float) -> Float[Array, "*radii"]:
     """F^(1/4) of the relativistic thin disk. The stress vanishes at the ISCO wherever the disk is cut off (Page & Thorne 1974)."""
     return page_thorne_flux(r, spin, orbit) ** 0.25
 
 
 @_law
-def shakura_sunyaev(r: Array, spin: float, orbit: str, r_in: float) -> Array:
+def shakura_sunyaev(r: Float[Array, "*radii"], spin: float, orbit: str, r_in: float) -> Float[Array, "*radii"]:
     """(r/r_in)^(-3/4), hottest at the inner edge (BlackHoleGPU, docs/sources.md; the outer part of Shakura & Sunyaev 1973)."""
     return (r / r_in) ** -0.75
 
 
 @_law
-def tapered(r: Array, spin: float, orbit: str, r_in: float) -> Array:
+def tapered(r: Float[Array, "*radii"], spin: float, orbit: str, r_in: float) -> Float[Array, "*radii"]:
     """r^(-0.8) (1 - sqrt(r_in/r))^0.35, cold at the inner edge (the orbital-plane renderer of docs/sources.md)."""
     return r**-0.8 * np.maximum(1.0 - np.sqrt(r_in / r), 0.0) ** 0.35
 
 
-def temperature(law: str, r: Array, *, spin: float, orbit: str, r_in: float, r_out: float) -> Array:
+def temperature(
+    law: str, r: Float[Array, "*radii"], *, spin: float, orbit: str, r_in: float, r_out: float
+) -> Float[Array, "*radii"]:
     """T/T_peak at radii `r` (r_s), T_peak the highest temperature in [r_in, r_out]; 0 inside r_in.
 
     Raises ValueError for an unknown law, or an annulus that is empty.
@@ -71,7 +74,7 @@ def _peak(law: Law, spin: float, orbit: str, r_in: float, r_out: float) -> float
     return peak if peak > 0.0 else 1.0
 
 
-def table(law: str, spin: float, orbit: str, r_in: float, r_out: float, samples: int = 512) -> Array:
+def table(law: str, spin: float, orbit: str, r_in: float, r_out: float, samples: int = 512) -> Float[Array, " samples"]:
     """T/T_peak as float32 (samples,), for r = r_in + (r_out - r_in) t^2.
 
     Texel i holds the value at its centre, t = (i + 1/2)/samples: a linear filter read at coordinate t interpolates in t.

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..scene import Camera, Scene, SceneError
+from ..shapes import Float
 from .space_time import space_time
 
 # Half a picture's height at distance 1 per degree of view is no more than this; a direction to the hole less ahead than its inverse is off every screen.
@@ -38,21 +40,21 @@ class Observer:
     kind: str
     spin: float
     w: float
-    n: np.ndarray
-    e_theta: np.ndarray
-    e_phi: np.ndarray
-    tetrad: np.ndarray
-    look: np.ndarray
+    n: Float[np.ndarray, " 3"]
+    e_theta: Float[np.ndarray, " 3"]
+    e_phi: Float[np.ndarray, " 3"]
+    tetrad: Float[np.ndarray, "4 4"]
+    look: Float[np.ndarray, "3 3"]
 
     @cached_property
-    def observer_map(self) -> np.ndarray:
+    def observer_map(self) -> Float[np.ndarray, "4 4"]:
         """tetrad · look, float64 (4, 4): what a pixel's ray starts with from (1, v)."""
         turned = self.tetrad.copy()
         turned[:, 1:] = self.tetrad[:, 1:] @ self.look
         return turned
 
     @cached_property
-    def axes(self) -> np.ndarray:
+    def axes(self) -> Float[np.ndarray, "3 3"]:
         """World unit vectors of the view, float64 rows (3, 3): backwards, down and right on the screen: n, e_θ, e_φ for a camera that looks at the hole."""
         return self.look.T @ np.stack([self.n, self.e_theta, self.e_phi])
 
@@ -93,7 +95,7 @@ def observe(scene: Scene) -> Observer:
     return Observer(kind, where.observer_spin, 1.0 / r, n, e_theta, e_phi, tetrad, look)
 
 
-def look_rotation(camera: Camera) -> np.ndarray:
+def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
     """The rotation (3, 3) in (r, θ, φ) of a camera's look: rolled about the line of sight, then pitched, then yawed, as a head turns.
 
     Positive yaw looks to the right, positive pitch up; positive roll turns the camera clockwise, and so the picture counter-clockwise.
@@ -120,7 +122,7 @@ def _outside(distance: float, horizon: float, a: float) -> None:
         raise ValueError(f"camera.distance: got {distance:g} r_s; at spin {a:g} the horizon is at {horizon:.6g} r_s and the camera must be outside it")
 
 
-def _kerr_tetrad(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, np.ndarray]:
+def _kerr_tetrad(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, Float[np.ndarray, "4 4"]]:
     """Kind and tetrad of the observer, from the ZAMO's (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted along e_φ for the static observer."""
     r_plus = 1.0 + math.sqrt((1.0 - a) * (1.0 + a))
     _outside(0.5 * r, 0.5 * r_plus, a)
@@ -147,19 +149,19 @@ def _kerr_tetrad(r: float, cos_theta: float, sin_theta: float, a: float, observe
     return kind, matrix
 
 
-def local_directions(psi: np.ndarray, chi: np.ndarray) -> np.ndarray:
+def local_directions(psi: ArrayLike, chi: ArrayLike) -> Float[np.ndarray, "*rays 3"]:
     """Local directions (…, 3) from ψ (angle from the hole's centre) and χ (angle on the screen from right towards up), radians."""
-    psi, chi = np.broadcast_arrays(np.asarray(psi, float), np.asarray(chi, float))
-    return np.stack([-np.cos(psi), -np.sin(psi) * np.sin(chi), np.sin(psi) * np.cos(chi)], axis=-1)
+    away, round_ = np.broadcast_arrays(np.asarray(psi, float), np.asarray(chi, float))
+    return np.stack([-np.cos(away), -np.sin(away) * np.sin(round_), np.sin(away) * np.cos(round_)], axis=-1)
 
 
-def screen_angles(directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def screen_angles(directions: Float[np.ndarray, "*rays 3"]) -> tuple[Float[np.ndarray, "*rays"], Float[np.ndarray, "*rays"]]:
     """(ψ, χ), each (…), of local directions (…, 3): what `local_directions` takes."""
     n_r, n_theta, n_phi = np.moveaxis(np.asarray(directions, float), -1, 0)
     return np.arctan2(np.hypot(n_theta, n_phi), -n_r), np.arctan2(-n_theta, n_phi)
 
 
-def parallel_rays(alpha: np.ndarray, beta: np.ndarray) -> np.ndarray:
+def parallel_rays(alpha: ArrayLike, beta: ArrayLike) -> Float[np.ndarray, "*rays 3"]:
     """Local vectors (…, 3) of a far observer's parallel rays at screen coordinates α (right), β (up), in M."""
-    alpha, beta = np.broadcast_arrays(np.asarray(alpha, float), np.asarray(beta, float))
-    return np.stack([-np.ones_like(alpha), -beta, alpha], axis=-1)
+    right, up = np.broadcast_arrays(np.asarray(alpha, float), np.asarray(beta, float))
+    return np.stack([-np.ones_like(right), -up, right], axis=-1)

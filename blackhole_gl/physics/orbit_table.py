@@ -17,6 +17,7 @@ import math
 
 import numpy as np
 
+from ..shapes import Float
 from .relativity import CRITICAL_IMPACT, carlson_rf
 
 Array = np.ndarray
@@ -59,7 +60,7 @@ def coordinate_factors(distance: float) -> tuple[float, float]:
     return sine_per_momentum / tangent, 1.0 / (sine_per_momentum * tangent)
 
 
-def table(distance: float) -> Array:
+def table(distance: float) -> Float[Array, "2 columns 4"]:
     """The table for a camera at `distance` > 1 (r_s, may be inf): float32 (2, WIDTH, 4).
 
     Row 1 is of x > 0, row 0 of x < 0 (empty from |x| = 1 on). Entry i holds c of φ = c₀ + c₁ t + c₂ t² + c₃ t³ with |x| = 2^octave (1 + (k + ½ + t)/CELLS),
@@ -75,7 +76,7 @@ def table(distance: float) -> Array:
     return cubics
 
 
-def swept_angle(x: Array, distance: float) -> Array:
+def swept_angle(x: Float[Array, "*rays"], distance: float) -> Float[Array, "*rays"]:
     """φ from the camera at `distance` (r_s) to the end of the ray at `x` > −1, all of one sign, not 0."""
     tangent2 = edge_tangent(distance) ** 2
     u = 1.0 / distance
@@ -128,7 +129,8 @@ def _from_infinity(u: float, n: Array, inner: Array, outer: Array) -> tuple[Arra
     """u²·U² of ∫ du/√f = 2 R_F(U²) from 0 to u ≤ u₁ (Carlson 1995, eq. 1.2)."""
     x = np.sqrt(u + n), np.sqrt(np.maximum(inner - u, 0.0)), np.sqrt(np.maximum(outer - u, 0.0))
     y = np.sqrt(n), np.sqrt(inner), np.sqrt(outer)
-    return tuple((x[i] * x[j] * y[k] + y[i] * y[j] * x[k]) ** 2 for i, j, k in ((0, 1, 2), (0, 2, 1), (1, 2, 0)))
+    first, second, third = ((x[i] * x[j] * y[k] + y[i] * y[j] * x[k]) ** 2 for i, j, k in ((0, 1, 2), (0, 2, 1), (1, 2, 0)))
+    return first, second, third
 
 
 def _capture(u: float, above: Array, inward: Array) -> Array:

@@ -17,6 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..shapes import Float
+
 Array = np.ndarray
 
 CRITICAL_IMPACT = 1.5 * np.sqrt(3.0)
@@ -236,7 +238,7 @@ def spherical_photon_orbit(s: ArrayLike, spin: ArrayLike) -> tuple[Array, Array]
     return -(r * r * s + a * r + a) / (r - 1.0), r**3 * (4.0 - r * s * s) / (r - 1.0) ** 2
 
 
-def critical_curve(spin: float, theta: float, samples: int = 512) -> tuple[Array, Array]:
+def critical_curve(spin: float, theta: float, samples: int = 512) -> tuple[Float[Array, " samples"], Float[Array, " samples"]]:
     """Closed critical curve (alpha, beta) in M on the screen of an observer at infinity, (samples,) each [B73].
 
     Starts at the middle of the visible range of lambda with beta > 0. At a* = 0 and on the axis it is a circle of its own.

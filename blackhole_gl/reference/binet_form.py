@@ -25,6 +25,7 @@ import math
 
 import numpy as np
 
+from ..shapes import Bool, Float
 from .hits import Traced
 from .marching import follow
 from .observers import Place
@@ -44,7 +45,7 @@ class BinetSystem:
         self.capture_radius = capture_radius
         self.twist = twist
 
-    def rhs(self, state: Array) -> Array:
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         w, h = state[W], state[H]
         change = np.empty_like(state)
         change[N_X:W] = h * state[E_X:H]
@@ -55,28 +56,28 @@ class BinetSystem:
         change[TAU] = -0.5 * self.twist * w
         return change
 
-    def scale(self, state: Array) -> Array:
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         size = np.ones_like(state)
         angular = 1.0 + state[H]
         size[W] = 1.0 / angular
         size[W_DOT] = np.maximum(1.0, np.abs(state[W_DOT]))
         return size
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         return 2.0 / (state[H] + 1e-3)
 
-    def rechart(self, before: Array, after: Array) -> Array:
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         return after
 
-    def captured(self, state: Array) -> Array:
+    def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         return state[W] * self.capture_radius > 1.0
 
-    def place(self, state: Array) -> tuple[Array, Array]:
+    def place(self, state: Float[Array, " rows *points"]) -> tuple[Float[Array, "*points"], Float[Array, " 3 *points"]]:
         """(r_s/r (N,), unit vector (3, N)): n turned by tau."""
         c, s = np.cos(state[TAU]), np.sin(state[TAU])
         return state[W], np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z]])
 
-    def momentum(self, state: Array) -> tuple[Array, Array]:
+    def momentum(self, state: Float[Array, "rows N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
         """(k_r, k_theta), each (N,), of the photon that arrives; E = 1, M = 1. NaN at G != 1, where the orbits are no light of Schwarzschild.
 
         Schwarzschild's own, r^2 dr/dt = -w' and r^2 dtheta/dt = h e.e_theta of the ray traced backwards; tau turns them about the axis and
@@ -89,7 +90,7 @@ class BinetSystem:
         along_theta = state[N_Z] * (state[N_X] * state[E_X] + state[N_Y] * state[E_Y]) / ring - ring * state[E_Z]
         return state[W_DOT] / (1.0 - state[W]), -2.0 * state[H] * along_theta
 
-    def start(self, place: Place, directions: Array) -> Array:
+    def start(self, place: Place, directions: Float[Array, "N 3"]) -> Float[Array, "rows N"]:
         """State (10, N) for local directions (N, 3) of the static observer at `place` (r in r_s)."""
         e_r, e_theta, e_phi = place.frame()
         tangent = np.outer(e_theta, directions[:, 1]) + np.outer(e_phi, directions[:, 2])
@@ -97,7 +98,7 @@ class BinetSystem:
         lapse = math.sqrt((place.r - 1.0) / place.r)
         return self._state(e_r, 1.0 / place.r, -directions[:, 0], tangent, size, place.r * size / lapse)
 
-    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+    def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
         """State (10, N) of parallel rays at (alpha, beta) = `screen` (N, 2), in r_s."""
         e_r, e_theta, e_phi = place.frame()
         # The ray passes the hole on the side where it starts: n turns towards (alpha, beta).

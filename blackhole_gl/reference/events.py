@@ -14,6 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
+from ..shapes import Bool, Float, Int
 from .hits import CAPTURED, ESCAPED, UNRESOLVED, Crossings
 from .integrator import System, locate_zero, rate_along
 
@@ -29,21 +30,21 @@ class RaySystem(System, Protocol):
     capture_radius: float
     """r in r_s below which a ray that goes in is captured."""
 
-    def place(self, state: Array) -> tuple[Array, Array]:
+    def place(self, state: Float[Array, " rows *points"]) -> tuple[Float[Array, "*points"], Float[Array, " 3 *points"]]:
         """(r_s/r (N,), world unit vector (3, N) of Boyer-Lindquist theta and phi). Regular through infinity, where r_s/r changes sign."""
 
-    def momentum(self, state: Array) -> tuple[Array, Array]:
+    def momentum(self, state: Float[Array, "rows N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
         """(k_r, k_theta), each (N,), of the photon that arrives: see `hits.Crossings`."""
 
-    def captured(self, state: Array) -> Array:
+    def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         """Mask (N,): inside `capture_radius` with no way back."""
 
 
 class Event(Protocol):
     """A function of the place along the ray that vanishes where the event is."""
 
-    def value(self, inverse_radius: Array, n: Array) -> Array:
-        """(N,) from r_s/r (N,) and n (3, N)."""
+    def value(self, inverse_radius: Float[Array, "*points"], n: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
+        """From r_s/r and n."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Sphere:
 
     radius: float
 
-    def value(self, inverse_radius: Array, n: Array) -> Array:
+    def value(self, inverse_radius: Float[Array, "*points"], n: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return inverse_radius - 1.0 / self.radius
 
 
@@ -60,9 +61,9 @@ class Sphere:
 class Plane:
     """The plane through the hole with the unit normal `normal` (3,)."""
 
-    normal: Array
+    normal: Float[Array, " 3"]
 
-    def value(self, inverse_radius: Array, n: Array) -> Array:
+    def value(self, inverse_radius: Float[Array, "*points"], n: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return self.normal @ n
 
     @property
@@ -81,7 +82,7 @@ class Watch:
     Attributes: fate (N,) int8, direction (N, 3), crossings (N, planes, orders), as in `hits.Traced`.
     """
 
-    def __init__(self, system: RaySystem, state: Array, planes: Sequence[Plane], orders: int, innermost: float):
+    def __init__(self, system: RaySystem, state: Float[Array, "rows N"], planes: Sequence[Plane], orders: int, innermost: float):
         count = state.shape[1]
         self.fate = np.full(count, UNRESOLVED, dtype=np.int8)
         self.direction = np.zeros((count, 3))
@@ -97,7 +98,9 @@ class Watch:
             start = np.stack([self._value(plane)(state) for plane in planes])
         self._side = np.where(np.abs(start) > IN_PLANE, np.sign(start), 0.0)
 
-    def __call__(self, rays: Array, before: Array, after: Array, step: Array) -> Array:
+    def __call__(
+        self, rays: Int[Array, " k"], before: Float[Array, "rows k"], after: Float[Array, "rows k"], step: Float[Array, " k"]
+    ) -> Bool[Array, " k"]:
         escaped = self._value(INFINITY)(after) <= 0.0
         captured = ~escaped & self._system.captured(after)
         self.fate[rays[escaped]], self.fate[rays[captured]] = ESCAPED, CAPTURED

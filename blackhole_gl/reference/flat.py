@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..shapes import Float
 from .events import IN_PLANE
 from .hits import CAPTURED, ESCAPED, Crossings, Traced
 from .observers import Place
@@ -63,12 +64,12 @@ def straight(view: View, radius: float) -> Traced:
     return Traced(fate, np.where(hit[:, None], 0.0, direction), zero, np.ones(len(position)), l_z_of_straight_rays(view), crossings)
 
 
-def lines(view: View) -> tuple[Array, Array]:
+def lines(view: View) -> tuple[Float[Array, "N 3"], Float[Array, "N 3"]]:
     """Where straight rays begin, in r_s, and the unit vectors that they go along, both (N, 3) in the world."""
     return _start_at_infinity(view) if view.at_infinity else _start(view.place, view.rays)
 
 
-def l_z_of_straight_rays(view: View) -> Array:
+def l_z_of_straight_rays(view: View) -> Float[Array, " N"]:
     """L_z/E in M of photons on straight rays."""
     place, rays = view.place, view.rays
     return -rays[:, 0] * place.sin_theta if view.at_infinity else -2.0 * place.r * place.sin_theta * rays[:, 2]

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
+
+from ..shapes import Bool, Float, Int
 
 Array = np.ndarray
 
@@ -28,18 +31,25 @@ class Crossings:
         k_r: a number; k_theta: in M. NaN where the model's rays are no light in any metric; k_theta also on the axis, where e_theta has no direction.
     """
 
-    along: Array
-    r: Array
-    theta: Array
-    phi: Array
-    k_r: Array
-    k_theta: Array
+    along: Float[Array, "*shape"]
+    r: Float[Array, "*shape"]
+    theta: Float[Array, "*shape"]
+    phi: Float[Array, "*shape"]
+    k_r: Float[Array, "*shape"]
+    k_theta: Float[Array, "*shape"]
 
     @classmethod
     def none(cls, rays: int, events: int, orders: int) -> Crossings:
         return cls(*np.full((len(fields(cls)), rays, events, orders), np.nan))
 
-    def record(self, where: tuple, along: Array, r: Array, n: Array, momentum: tuple[Array, Array] | tuple[float, float]) -> None:
+    def record(
+        self,
+        where: tuple[Any, ...],
+        along: Float[Array, " k"],
+        r: Float[Array, " k"],
+        n: Float[Array, "3 k"],
+        momentum: tuple[Float[Array, " k"], Float[Array, " k"]] | tuple[float, float],
+    ) -> None:
         """Puts crossings at r (k,) in r_s in the unit directions n (3, k) into the entries `where`."""
         self.along[where], self.r[where] = along, r
         self.theta[where] = np.arctan2(np.hypot(n[0], n[1]), n[2])
@@ -47,11 +57,11 @@ class Crossings:
         self.k_r[where] = momentum[0]
         self.k_theta[where] = np.where(np.hypot(n[0], n[1]) > _AXIS, momentum[1], np.nan)
 
-    def emptied(self, mask: Array) -> Crossings:
+    def emptied(self, mask: Bool[Array, "*shape"]) -> Crossings:
         """The same without what is known of the crossings in `mask`, which keep their place in the order."""
         return Crossings(self.along, *(np.where(mask, np.nan, getattr(self, item.name)) for item in fields(self)[1:]))
 
-    def without_rays(self, mask: Array) -> Crossings:
+    def without_rays(self, mask: Bool[Array, " N"]) -> Crossings:
         """The same with nothing met by the rays in `mask` (N,)."""
         return Crossings(*(np.where(mask[:, None, None], np.nan, getattr(self, item.name)) for item in fields(self)))
 
@@ -59,7 +69,7 @@ class Crossings:
         """Those of one event, (N, orders)."""
         return Crossings(*(getattr(self, item.name)[:, event] for item in fields(self)))
 
-    def in_order(self) -> tuple[Array, Crossings]:
+    def in_order(self) -> tuple[Int[Array, "N K"], Crossings]:
         """All of them in order along each ray: (event (N, K), crossings (N, K)), K = events · orders; event -1 and NaN where there are no more."""
         rays, events, orders = self.r.shape
         flat = Crossings(*(getattr(self, item.name).reshape(rays, -1) for item in fields(self)))
@@ -79,11 +89,11 @@ class Traced:
         crossings: of every plane asked for, (N, events, orders).
     """
 
-    fate: Array
-    direction: Array
-    steps: Array
-    energy: Array
-    l_z: Array
+    fate: Int[Array, " N"]
+    direction: Float[Array, "N 3"]
+    steps: Int[Array, " N"]
+    energy: Float[Array, " N"]
+    l_z: Float[Array, " N"]
     crossings: Crossings
 
 
@@ -111,16 +121,16 @@ class ReferenceHits:
         observer: "static" or "zamo": the one used (a static observer gives way to the ZAMO in the ergosphere).
     """
 
-    fate: Array
-    direction: Array
-    theta: Array
-    phi: Array
-    steps: Array
-    evaluations: Array
+    fate: Int[Array, " N"]
+    direction: Float[Array, "N 3"]
+    theta: Float[Array, " N"]
+    phi: Float[Array, " N"]
+    steps: Int[Array, " N"]
+    evaluations: Int[Array, " N"]
     crossings: Crossings
-    g: Array
-    lambda_: Array
-    energy_sign: Array
+    g: Float[Array, "N orders"]
+    lambda_: Float[Array, " N"]
+    energy_sign: Float[Array, " N"]
     observer: str
 
     @property
@@ -129,22 +139,22 @@ class ReferenceHits:
         return self.crossings.of(EQUATOR)
 
     @property
-    def crossing_r(self) -> Array:
+    def crossing_r(self) -> Float[Array, "N orders"]:
         """(N, orders) r in r_s where the ray crosses the equatorial plane the n-th time."""
         return self.equatorial.r
 
     @property
-    def crossing_phi(self) -> Array:
+    def crossing_phi(self) -> Float[Array, "N orders"]:
         """(N, orders) azimuth there in radians, in (-pi, pi]."""
         return self.equatorial.phi
 
 
-def wrapped(angle: Array) -> Array:
+def wrapped(angle: Float[Array, "*shape"]) -> Float[Array, "*shape"]:
     """The same angle in (-pi, pi]."""
     return np.pi - np.mod(np.pi - angle, 2.0 * np.pi)
 
 
-def angles(direction: Array, fate: Array) -> tuple[Array, Array]:
+def angles(direction: Float[Array, "N 3"], fate: Int[Array, " N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
     """(theta, phi) of directions (N, 3); NaN where the ray did not escape."""
     escaped = fate == ESCAPED
     theta = np.arctan2(np.hypot(direction[:, 0], direction[:, 1]), direction[:, 2])

@@ -18,6 +18,8 @@ from typing import Protocol
 
 import numpy as np
 
+from ..shapes import Float, Int
+
 ROWS = 7
 ORDER = 2 * ROWS
 EVALUATIONS_PER_STEP = ROWS * (ROWS + 1) - ROWS + 1
@@ -32,20 +34,22 @@ Array = np.ndarray
 class System(Protocol):
     """What the driver asks of a ray model. States are (rows, ...) arrays; every function is elementwise in `...`."""
 
-    def rhs(self, state: Array) -> Array:
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         """Derivative of the state with respect to the model's own parameter; same shape as `state`."""
 
-    def scale(self, state: Array) -> Array:
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         """Size against which the error of each row is judged; broadcastable to `state`."""
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         """Upper limit of the step, (...,): short enough that no event can hide inside one step."""
 
-    def rechart(self, before: Array, after: Array) -> Array:
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         """`after`, or the same rays in coordinates that suit them better; applied between steps."""
 
 
-def extrapolated_step(rhs: Callable[[Array], Array], state: Array, step: Array) -> tuple[Array, Array]:
+def extrapolated_step(
+    rhs: Callable[[Array], Array], state: Float[Array, "rows N"], step: Float[Array, " N"]
+) -> tuple[Float[Array, "rows N"], Float[Array, "rows N"]]:
     """One step of every ray: (new state, error estimate), both (rows, N), for `state` (rows, N) and `step` (N,)."""
     width = step / _SUBSTEPS[:, None]
     previous = np.repeat(state[:, None, :], ROWS, axis=1)
@@ -76,8 +80,15 @@ def _aitken_neville(first_column: list[Array]) -> tuple[Array, Array]:
     return column[0], np.abs(correction)
 
 
-def march(system: System, state: Array, first_step: Array, monitor: Callable[[Array, Array, Array, Array], Array], *,
-          tolerance: float, max_steps: int) -> tuple[Array, Array]:
+def march(
+    system: System,
+    state: Float[Array, "rows N"],
+    first_step: Float[Array, " N"],
+    monitor: Callable[[Array, Array, Array, Array], Array],
+    *,
+    tolerance: float,
+    max_steps: int,
+) -> tuple[Float[Array, "rows N"], Int[Array, " N"]]:
     """Advances all rays until `monitor` has finished them or `max_steps` trial steps are spent.
 
     `state` (rows, N), `first_step` (N,). After each accepted step `monitor(rays, before, after, step)` gets the
@@ -117,7 +128,7 @@ def rate_along(rhs: Callable[[Array], Array], value: Callable[[Array], Array]) -
 
     Central differences over 1e-5 of the step: about 1e-10 of the rate is lost, half of it to the third derivative and half to rounding.
     """
-    def rate(state: Array, step: Array) -> Array:
+    def rate(state: Float[Array, "rows N"], step: Float[Array, " N"]) -> Float[Array, "*values N"]:
         nudge = 1e-5 * step
         flow = nudge * rhs(state)
         return (value(state + flow) - value(state - flow)) / (2.0 * nudge)
@@ -125,7 +136,13 @@ def rate_along(rhs: Callable[[Array], Array], value: Callable[[Array], Array]) -
     return rate
 
 
-def locate_zero(rhs: Callable[[Array], Array], value: Callable[[Array], Array], before: Array, after: Array, step: Array) -> tuple[Array, Array]:
+def locate_zero(
+    rhs: Callable[[Array], Array],
+    value: Callable[[Array], Array],
+    before: Float[Array, "rows N"],
+    after: Float[Array, "rows N"],
+    step: Float[Array, " N"],
+) -> tuple[Float[Array, " N"], Float[Array, "rows N"]]:
     """Where value(state), (N,), vanishes inside one step: (parameter (N,), state (rows, N)) there.
 
     Newton's method on the parameter; each trial is a single step from `before`, shorter than the accepted one and therefore at least as

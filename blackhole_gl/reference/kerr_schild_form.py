@@ -36,6 +36,7 @@ import math
 
 import numpy as np
 
+from ..shapes import Bool, Float
 from .hits import Traced
 from .marching import follow
 from .observers import Momenta, Place, momenta
@@ -55,7 +56,7 @@ class KerrSchildSystem:
         self.r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
         self.capture_radius = 0.5 * self.r_plus  # in r_s, as all that is not of these equations' own
 
-    def rhs(self, state: Array) -> Array:
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         nx, ny, s, w, lx, ly, lz, pn, energy, chart = state
         a = chart * self.spin
         lx, ly, lz, pn = chart * lx, chart * ly, chart * lz, chart * pn
@@ -103,7 +104,7 @@ class KerrSchildSystem:
         zero = np.zeros_like(w)
         return np.stack([chart * nx_dot, chart * ny_dot, chart * nz_dot, chart * w_dot, lx_dot, ly_dot, zero, pn_dot, zero, zero])
 
-    def rechart(self, before: Array, after: Array) -> Array:
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         """`after` with the rays that turned round in their last step, from `before`, moved to the chart that suits their way."""
         with np.errstate(all="ignore"):  # r is infinite where a ray from infinity starts, and meaningless beyond w = 0
             turned = (self.radius(after) - self.radius(before)) * after[CHART] > 0.0
@@ -138,7 +139,7 @@ class KerrSchildSystem:
         result[CHART] = -chart
         return result
 
-    def scale(self, state: Array) -> Array:
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         size = np.ones_like(state)
         angular = 1.0 + self._angular_momentum(state)
         size[W] = 1.0 / angular  # the angle swept until w has changed by dw is L dw
@@ -146,19 +147,19 @@ class KerrSchildSystem:
         size[P_N] = np.maximum(np.abs(state[P_N]), np.abs(state[ENERGY]))
         return size
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         # Below half a turn of the orbit's plane: a ray meets z = 0 at most once in a step.
         return 2.0 / (self._angular_momentum(state) + abs(self.spin) * np.abs(state[ENERGY]) + 1e-3)
 
-    def captured(self, state: Array) -> Array:
+    def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         """Mask (N,): behind the future horizon, whence nothing comes back."""
         return (state[W] * self.r_plus > self._rho(state)) & (state[CHART] > 0.0)
 
-    def radius(self, state: Array) -> Array:
+    def radius(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         """Boyer-Lindquist r in M, (N,)."""
         return self._rho(state) / state[W]
 
-    def place(self, state: Array) -> tuple[Array, Array]:
+    def place(self, state: Float[Array, " rows *points"]) -> tuple[Float[Array, "*points"], Float[Array, " 3 *points"]]:
         """(r_s/r (N,), unit vector (3, N) of Boyer-Lindquist theta and phi).
 
         (n_x + i n_y) = (rho + i a w) sin(theta) e^{i phi~} and n_z = rho cos(theta) with rho = w r; phi - phi~ is the lag, in closed form.
@@ -169,7 +170,7 @@ class KerrSchildSystem:
         c, s = np.cos(turn) / size, np.sin(turn) / size
         return 2.0 * w / rho, np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z] / rho])
 
-    def momentum(self, state: Array) -> tuple[Array, Array]:
+    def momentum(self, state: Float[Array, "rows N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
         """(k_r, k_theta), each (N,), in Boyer-Lindquist coordinates, of the photon that arrives; in units of |E|, M = 1.
 
         Components of p = p_n n + w L cross n along dx/dr and dx/dtheta, n.dx/dtheta = a^2 w sin(theta) cos(theta). The azimuths and times of the
@@ -197,7 +198,7 @@ class KerrSchildSystem:
         gap = 2.0 * (self.r_plus - 1.0)
         return self.spin * np.log1p(gap / (r - self.r_plus)) / gap
 
-    def start(self, place: Place, photons: Momenta) -> Array:
+    def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
         """State (10, N) of photons at a finite place."""
         r, cos, sin = place.r, place.cos_theta, place.sin_theta
         chart = np.where(photons.radial > 0.0, -1.0, 1.0)
@@ -222,7 +223,7 @@ class KerrSchildSystem:
         momentum[2] = sin * photons.l_over_sin
         return self._state(x / distance, 1.0 / distance, momentum, p, photons.energy, chart)
 
-    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+    def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
         """State (10, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
         e_r, e_theta, e_phi = place.frame()
         alpha, beta = screen.T

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
+from ..shapes import Float
 from .events import Plane, RaySystem, Watch
 from .hits import Traced
-from .integrator import march, rate_along
+from .integrator import System, march, rate_along
 from .registry import View
 
 Array = np.ndarray
@@ -20,11 +19,13 @@ _LONGEST_TURN = 0.5  # rad: how far a ray's place would turn in one step at the 
 _LONGEST_FALL = 0.25  # and the share of the way to the horizon, in 1/r, that it would go
 
 
-def follow(view: View, system: RaySystem, state: Array, energy: Array, l_z: Array) -> Traced:
+def follow(
+    view: View, system: RaySystem, state: Float[Array, "rows N"], energy: Float[Array, " N"], l_z: Float[Array, " N"]
+) -> Traced:
     """Marches the rays of `view` from `state` to their fate; `energy` and `l_z` are those of the photons, as in `hits.Traced`."""
     planes = [Plane(normal) for normal in view.planes]
     watch = Watch(system, state, planes, view.orders, INNERMOST_CROSSING * view.horizon)
-    driven = system if all(plane.equatorial for plane in planes) else _Unhurried(system, min(view.horizon, system.capture_radius))
+    driven: System = system if all(plane.equatorial for plane in planes) else _Unhurried(system, min(view.horizon, system.capture_radius))
     with np.errstate(all="ignore"):
         _, steps = march(driven, state, 0.05 * driven.longest_step(state), watch, tolerance=view.tolerance, max_steps=_MAX_STEPS)
     return Traced(watch.fate, watch.direction, steps, energy, l_z, watch.crossings)
@@ -43,7 +44,7 @@ class _Unhurried:
         self._system = system
         self._horizon = horizon
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, "rows N"]) -> Float[Array, " N"]:
         step = self._system.longest_step(state)
         inverse_radius = self._system.place(state)[0]
         rate = rate_along(self._system.rhs, lambda at: np.vstack(self._system.place(at)))(state, step)
@@ -52,5 +53,11 @@ class _Unhurried:
         fall = _LONGEST_FALL * (1.0 / self._horizon - inverse_radius) / np.abs(rate[0])
         return np.where(falling, step, np.minimum(step, np.minimum(turn, fall)))
 
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._system, name)
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
+        return self._system.rhs(state)
+
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
+        return self._system.scale(state)
+
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
+        return self._system.rechart(before, after)

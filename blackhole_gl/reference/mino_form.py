@@ -21,6 +21,7 @@ import math
 import numpy as np
 
 from ..physics import relativity
+from ..shapes import Bool, Float
 from .hits import Traced
 from .marching import follow
 from .observers import Momenta, Place, momenta
@@ -43,7 +44,7 @@ class MinoSystem:
         self.stop = self.r_plus + min(0.01 * self.r_plus, 0.5 * (photon_orbit - self.r_plus))
         self.capture_radius = 0.5 * self.stop  # in r_s, as all that is not of these equations' own
 
-    def rhs(self, state: Array) -> Array:
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         n_x, n_y, mu, w, _, _, _, _, _, energy, l_z, carter = state
         a = self.spin
         p = energy + (a * energy - l_z) * a * w * w  # P w^2
@@ -61,7 +62,7 @@ class MinoSystem:
         change[TWIST] = a * (p / delta - energy)
         return change
 
-    def scale(self, state: Array) -> Array:
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         size = np.ones_like(state)
         angular = 1.0 + np.sqrt(np.abs(state[Q] + state[L] ** 2))
         size[W] = 1.0 / angular
@@ -69,23 +70,23 @@ class MinoSystem:
         size[NX_DOT:TWIST] = angular
         return size
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         # Below half a turn of the orbit's plane: a ray meets z = 0 at most once in a step.
         return 2.0 / (np.sqrt(np.abs(state[Q] + state[L] ** 2)) + abs(self.spin) * np.abs(state[ENERGY]) + 1e-3)
 
-    def rechart(self, before: Array, after: Array) -> Array:
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         return after
 
-    def captured(self, state: Array) -> Array:
+    def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         """Mask (N,): going in, with no turning point left."""
         return (state[W] * self.stop > 1.0) & (state[W_DOT] > 0.0)
 
-    def place(self, state: Array) -> tuple[Array, Array]:
+    def place(self, state: Float[Array, " rows *points"]) -> tuple[Float[Array, "*points"], Float[Array, " 3 *points"]]:
         """(r_s/r (N,), unit vector (3, N) of Boyer-Lindquist theta and phi)."""
         c, s = np.cos(state[TWIST]), np.sin(state[TWIST])
         return 2.0 * state[W], np.stack([c * state[N_X] - s * state[N_Y], s * state[N_X] + c * state[N_Y], state[N_Z]])
 
-    def momentum(self, state: Array) -> tuple[Array, Array]:
+    def momentum(self, state: Float[Array, "rows N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
         """(k_r, k_theta), each (N,), of the photon that arrives; in units of |E|, M = 1.
 
         r' = -w'/w^2 = Delta p_r and theta' = n'.e_theta = p_theta of the ray traced backwards, whose photon arrives with the opposite momentum.
@@ -96,7 +97,7 @@ class MinoSystem:
         theta_dot = n_z * (n_x * state[NX_DOT] + n_y * state[NY_DOT]) / ring - ring * state[NZ_DOT]
         return state[W_DOT] / (delta * np.abs(state[ENERGY])), -theta_dot / np.abs(state[ENERGY])
 
-    def start(self, place: Place, photons: Momenta) -> Array:
+    def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
         """State (12, N) of photons at a finite place."""
         r = place.r
         sigma = r * r + (self.spin * place.cos_theta) ** 2
@@ -104,7 +105,7 @@ class MinoSystem:
         inward = -photons.radial * math.sqrt(sigma * delta) / (r * r)
         return self._state(place, 1.0 / r, inward, photons.p_theta, photons.l_over_sin, photons.energy)
 
-    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+    def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
         """State (12, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
         one = np.ones(len(screen))
         return self._state(place, 0.0, one, -screen[:, 1], screen[:, 0], one)

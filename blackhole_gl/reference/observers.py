@@ -21,6 +21,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..shapes import Float
+
 Array = np.ndarray
 
 
@@ -46,7 +48,7 @@ class Place:
     def from_degrees(cls, r: float, inclination: float, azimuth: float) -> Place:
         return cls(r, *cos_sin_degrees(inclination), *cos_sin_degrees(azimuth))
 
-    def frame(self) -> tuple[Array, Array, Array]:
+    def frame(self) -> tuple[Float[Array, " 3"], Float[Array, " 3"], Float[Array, " 3"]]:
         """World unit vectors (e_r, e_theta, e_phi) of the coordinate directions, each (3,)."""
         c, s, cp, sp = self.cos_theta, self.sin_theta, self.cos_phi, self.sin_phi
         return np.array([s * cp, s * sp, c]), np.array([c * cp, c * sp, -s]), np.array([-sp, cp, 0.0])
@@ -60,12 +62,12 @@ class Momenta:
     carter_k = Q + (L - aE)^2.
     """
 
-    energy: Array
-    l_over_sin: Array
-    p_theta: Array
-    radial: Array
-    carter_p: Array
-    carter_k: Array
+    energy: Float[Array, " N"]
+    l_over_sin: Float[Array, " N"]
+    p_theta: Float[Array, " N"]
+    radial: Float[Array, " N"]
+    carter_p: Float[Array, " N"]
+    carter_k: Float[Array, " N"]
 
 
 def static_observer_exists(place: Place, spin: float) -> bool:
@@ -76,7 +78,7 @@ def static_observer_exists(place: Place, spin: float) -> bool:
     return delta > (spin * place.sin_theta) ** 2
 
 
-def momenta(directions: Array, place: Place, spin: float, observer: str) -> Momenta:
+def momenta(directions: Float[Array, "N 3"], place: Place, spin: float, observer: str) -> Momenta:
     """Conserved quantities of photons that move along `directions` (N, 3) = (n_r, n_theta, n_phi) of the observer.
 
     `observer`: "static" (only outside the ergosphere) or "zamo". Finite distance only.

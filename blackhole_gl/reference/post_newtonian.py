@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..shapes import Bool, Float
 from .flat import l_z_of_straight_rays
 from .hits import Traced
 from .marching import follow
@@ -32,7 +33,7 @@ class PostNewtonianSystem:
         self.capture_radius = capture_radius
         self.drag = 6.0 * gravity_strength * 0.5 * (0.5 * spin) * 0.5
 
-    def rhs(self, state: Array) -> Array:
+    def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         n, w, momentum, v_n = state[N_X:W], state[W], state[L_X:V_N], state[V_N]
         across = np.cross(momentum, n, axis=0)
         v = v_n * n + w * across
@@ -45,38 +46,38 @@ class PostNewtonianSystem:
         change[V_N] = w * (across * across).sum(axis=0) + force
         return change
 
-    def scale(self, state: Array) -> Array:
+    def scale(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         size = np.ones_like(state)
         angular = 1.0 + self._l(state)
         size[W], size[L_X:V_N] = 1.0 / angular, angular
         size[V_N] = np.maximum(1.0, np.abs(state[V_N]))
         return size
 
-    def longest_step(self, state: Array) -> Array:
+    def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         # Short against half a turn, and against the way on which a pull alone would bring a ray back through infinity.
         return 1.0 / (self._l(state) + abs(self.drag) + self.mass)
 
-    def rechart(self, before: Array, after: Array) -> Array:
+    def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         return after
 
-    def captured(self, state: Array) -> Array:
+    def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         return state[W] * self.capture_radius > 1.0
 
-    def place(self, state: Array) -> tuple[Array, Array]:
+    def place(self, state: Float[Array, " rows *points"]) -> tuple[Float[Array, "*points"], Float[Array, " 3 *points"]]:
         """(r_s/r (N,), unit vector (3, N))."""
         return state[W], state[N_X:W]
 
-    def momentum(self, state: Array) -> tuple[Array, Array]:
+    def momentum(self, state: Float[Array, "rows N"]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
         """NaN: what moves here changes its speed as a slow mass does, and is light in no metric."""
         none = np.full(state.shape[1], np.nan)
         return none, none
 
-    def start(self, place: Place, directions: Array) -> Array:
+    def start(self, place: Place, directions: Float[Array, "N 3"]) -> Float[Array, "rows N"]:
         """State (9, N) for local directions (N, 3) in a flat frame at `place` (r in r_s): the observer's own frame is skipped."""
         frame = np.stack(place.frame())
         return self._state(frame[0], 1.0 / place.r, np.cross(place.r * frame[0], directions @ frame).T, directions[:, 0])
 
-    def start_at_infinity(self, place: Place, screen: Array) -> Array:
+    def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
         """State (9, N) of parallel rays at (alpha, beta) = `screen` (N, 2), in r_s."""
         e_r, e_theta, e_phi = place.frame()
         offset = np.outer(screen[:, 0], e_phi) - np.outer(screen[:, 1], e_theta)

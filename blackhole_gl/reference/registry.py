@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..shapes import Float
 from .hits import Traced
 from .observers import Place
 
@@ -39,12 +40,12 @@ class View:
         tolerance: error allowed per step of the integrator.
     """
 
-    rays: Array
+    rays: Float[Array, "N columns"]
     place: Place
     spin: float
     observer: str
     horizon: float
-    planes: Array
+    planes: Float[Array, "P 3"]
     orders: int
     tolerance: float
 
@@ -58,7 +59,7 @@ class View:
         return replace(self.place, r=2.0 * self.place.r)
 
     @property
-    def screen(self) -> Array:
+    def screen(self) -> Float[Array, "N 2"]:
         """(N, 2) alpha, beta in r_s of a camera at infinity."""
         return 0.5 * self.rays
 

@@ -18,6 +18,8 @@ from fractions import Fraction as F
 
 import numpy as np
 
+from ..shapes import Float
+
 Array = np.ndarray
 RightHandSide = Callable[[Array], Array]
 
@@ -77,7 +79,7 @@ NYSTROM_TABLEAUX = {
 SCHEMES = ("euler", "verlet", "bs3", "rk4", "dopri5", "nystrom4", "nystrom5")
 
 
-def step(scheme: str, rhs: RightHandSide, state: Array, h: float) -> Array:
+def step(scheme: str, rhs: RightHandSide, state: Float[Array, " rows *points"], h: float) -> Float[Array, " rows *points"]:
     """The state after a step of `h`. For ``verlet`` and Nystrom's schemes the first half of the rows are places, the second half their rates."""
     if scheme == "verlet":
         return _verlet(rhs, state, h)
@@ -87,7 +89,9 @@ def step(scheme: str, rhs: RightHandSide, state: Array, h: float) -> Array:
     return _combined(state, h, tableau.b, _stages(tableau, rhs, state, h))
 
 
-def pair(scheme: str, rhs: RightHandSide, state: Array, h: float) -> tuple[Array, Array]:
+def pair(
+    scheme: str, rhs: RightHandSide, state: Float[Array, " rows *points"], h: float
+) -> tuple[Float[Array, " rows *points"], Float[Array, " rows *points"]]:
     """(result, embedded result of lower order) of a step of `h`."""
     tableau = TABLEAUX[scheme]
     stages = _stages(tableau, rhs, state, h)

@@ -8,8 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..physics import relativity
+from ..shapes import Float
 from .hits import EQUATOR, Crossings, ReferenceHits, angles, joined
 from .integrator import EVALUATIONS_PER_STEP
 from .marching import INNERMOST_CROSSING
@@ -23,7 +25,7 @@ Array = np.ndarray
 
 
 def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
-          observer: str = "static", directions: Array | None = None, screen: Array | None = None, planes: Sequence[Sequence[float]] = (),
+          observer: str = "static", directions: ArrayLike | None = None, screen: ArrayLike | None = None, planes: Sequence[Sequence[float]] = (),
           orders: int = 3, orbit: str = "prograde", tolerance: float = 1e-12, **parameters: Any) -> ReferenceHits:
     """Traces rays backwards from the camera.
 
@@ -60,7 +62,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         energy_sign=np.sign(traced.energy), observer=view.observer)
 
 
-def _view(twin: Twin, spin: float, place: Place, observer: str, directions: Array | None, screen: Array | None,
+def _view(twin: Twin, spin: float, place: Place, observer: str, directions: ArrayLike | None, screen: ArrayLike | None,
           planes: Sequence[Sequence[float]], orders: int, tolerance: float) -> View:
     spin = spin if twin.spins else 0.0
     horizon = 1.0 if twin.metric == "schwarzschild" else float(relativity.horizon_radius(spin))
@@ -72,7 +74,7 @@ def _view(twin: Twin, spin: float, place: Place, observer: str, directions: Arra
     return view
 
 
-def _rays(place: Place, directions: Array | None, screen: Array | None) -> Array:
+def _rays(place: Place, directions: ArrayLike | None, screen: ArrayLike | None) -> Float[Array, "N columns"]:
     at_infinity = math.isinf(place.r)
     if (screen is None) == (directions is None) or (screen is None) == at_infinity:
         raise ValueError("rays are given by `screen` when distance is inf, and by `directions` otherwise")
@@ -82,7 +84,7 @@ def _rays(place: Place, directions: Array | None, screen: Array | None) -> Array
     return rays / np.linalg.norm(rays, axis=1, keepdims=True)
 
 
-def _normals(planes: Sequence[Sequence[float]]) -> Array:
+def _normals(planes: Sequence[Sequence[float]]) -> Float[Array, "P 3"]:
     """Unit normals (1 + P, 3), the equatorial plane's first."""
     normals = np.array([(0.0, 0.0, 1.0), *planes], dtype=np.float64)
     size = np.linalg.norm(normals, axis=1, keepdims=True)

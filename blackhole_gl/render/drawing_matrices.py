@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from pyrr import matrix44  # type: ignore[import-untyped]
+from pyrr import matrix44
 
 from ..physics.observer import Observer
 

@@ -7,6 +7,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..shapes import Float, Int
+
 Array = np.ndarray
 
 MOST_CROSSINGS = 3
@@ -43,18 +45,18 @@ class HitArrays:
         met_rates: float32 (…, meetings, 4): the ray's momentum there, n_rate and w_rate of shaders/common/hits.glsl. All None where there is nothing to meet.
     """
 
-    fate: Array
-    steps: Array
-    direction: Array
-    lambda_: Array
-    crossing: Array
-    momentum: Array | None = None
-    met: Array | None = None
-    met_place: Array | None = None
-    met_rates: Array | None = None
+    fate: Int[Array, "*rays"]
+    steps: Int[Array, "*rays"]
+    direction: Float[Array, "*rays 3"]
+    lambda_: Float[Array, "*rays"]
+    crossing: Float[Array, "*rays 3 2"]
+    momentum: Float[Array, "*rays 3 2"] | None = None
+    met: Int[Array, "*rays meetings 3"] | None = None
+    met_place: Float[Array, "*rays meetings 3"] | None = None
+    met_rates: Float[Array, "*rays meetings 4"] | None = None
 
     @property
-    def momenta(self) -> Array:
+    def momenta(self) -> Float[Array, "*rays 3 2"]:
         """`momentum` of listed rays.
 
         Raises:
@@ -70,13 +72,13 @@ class HitArrays:
         return replace(self, **{name: function(values) for name, values in there.items() if values is not None})
 
 
-def fates_and_steps(texels: Array) -> tuple[Array, Array]:
+def fates_and_steps(texels: Float[Array, "*rays 4"]) -> tuple[Int[Array, "*rays"], Int[Array, "*rays"]]:
     """Both int (…), from the first texture's texels (…, 4)."""
     packed = texels[..., 3].astype(np.int32)
     return packed & 3, packed >> 2
 
 
-def unpacked(texels: Sequence[Array], orders: int, meetings: int) -> HitArrays:
+def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: int) -> HitArrays:
     """The hits in the texels (…, 4) of `textures`, directions and places as they lie there."""
     plane = textures(orders)
     first, kept = texels[0], list(texels[1:plane])
@@ -93,7 +95,7 @@ def unpacked(texels: Sequence[Array], orders: int, meetings: int) -> HitArrays:
     return replace(found, met=met, met_place=places[..., :3], met_rates=rates)
 
 
-def momenta(texels: Sequence[Array], crossing: Array) -> Array:
+def momenta(texels: Sequence[Float[Array, "*rays 4"]], crossing: Float[Array, "*rays 3 2"]) -> Float[Array, "*rays 3 2"]:
     """`HitArrays.momentum` (…, 3, 2) from the texels (…, 4) of `MOMENTA` textures and the crossings (…, 3, 2)."""
     found = np.stack([texels[0][..., :2], texels[0][..., 2:], texels[1][..., :2]], axis=-2)
     return np.where(np.any(crossing != 0.0, axis=-1, keepdims=True), found, np.float32(np.nan))

@@ -26,4 +26,4 @@ def test_headless_frame_loads_no_window_library(tmp_path: Path) -> None:
     found = json.loads(run.stdout.splitlines()[-1])
     assert found["shape"] == [18, 32, 3]
     assert found["brightest"] > 0
-    assert not {"imgui_bundle", "glfw", "blackhole_gl.app", "typer"} & set(found["modules"])
+    assert not {"imgui_bundle", "glfw", "blackhole_gl.app", "typer", "jaxtyping"} & set(found["modules"])

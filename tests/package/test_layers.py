@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "blackhole_gl"
 
 # Lowest first. A part imports from rows below its own and from itself, never sideways or upwards.
 LAYERS = (
-    {"resources", "worker"},
+    {"resources", "shapes", "worker"},
     {"output"},
     {"scene"},
     {"physics"},
@@ -29,12 +29,13 @@ RANK = {part: rank for rank, row in enumerate(LAYERS) for part in row}
 
 # The float64 twins share no code with what they check, so that a mistake cannot hide in both; of the rest of the package they know the
 # closed forms alone, which have tests of their own.
-INDEPENDENT = {"reference": {"physics.relativity"}}
+INDEPENDENT = {"reference": {"physics.relativity", "shapes"}}
 
 # Third-party packages that only some modules may import: everything else must work without them.
 CONFINED = {
     "imgui_bundle": ("app",),
     "glfw": ("app", "render/context.py"),
+    "jaxtyping": ("shapes.py",),
     "matplotlib": (),
     "typer": ("cli",),
     "platformdirs": ("resources.py",),
