@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -83,8 +84,8 @@ def read(path: Path, scene: Scene) -> np.ndarray:
 
 def _number(text: str | None, path: Path, line: int, column: str) -> float:
     try:
-        value = float(text)
-    except (TypeError, ValueError):
+        value = float(text or "")
+    except ValueError:
         value = math.nan
     if not math.isfinite(value):
         raise RayListError(f"{path}, line {line}, column {column}: got {text!r}; allowed is a finite number")
@@ -105,7 +106,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: np.ndarray) -> Trace
     phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
     none = r == 0.0
     isco = ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
-    momentum = hits.momentum.astype(float)
+    momentum = hits.momenta.astype(float)
     return TracedRays(
         hits.fate,
         np.where((hits.fate == 1)[:, None], hits.direction.astype(float), np.nan),
@@ -130,8 +131,8 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
     if len(rays) == 0:
         return unknown(0)
     camera, model = scene.camera, ray_model(scene)
-    given = {"screen": rays} if columns(scene) == SCREEN else {"directions": local_vectors(rays, scene)}
-    parameters = {name: scene.get(key) for name, key in reference.twin_of(model.key).parameters.items()}
+    far = columns(scene) == SCREEN
+    parameters: dict[str, Any] = {name: scene.get(key) for name, key in reference.twin_of(model.key).parameters.items()}
     found = reference.trace(
         model.key,
         spin=space_time(scene).spin,
@@ -141,7 +142,8 @@ def trace_by_reference(scene: Scene, rays: np.ndarray) -> TracedRays:
         observer=camera.observer,
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
-        **given,
+        directions=None if far else local_vectors(rays, scene),
+        screen=rays if far else None,
         **parameters,
     )
     kept = np.arange(_CROSSINGS) < scene.rays.orders

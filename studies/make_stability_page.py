@@ -73,7 +73,11 @@ def main() -> int:
     print(describe(context), file=sys.stderr)
     renderer = Renderer(context)
     old = stability_page.loads(TABLE.read_text(encoding="utf-8")) if TABLE.exists() else {}
-    keep = (lambda table: None) if given.check else (lambda table: TABLE.write_text(stability_page.dumps(table), encoding="utf-8"))
+
+    def keep(table: Table) -> None:
+        if not given.check:
+            TABLE.write_text(stability_page.dumps(table), encoding="utf-8")
+
     new = measure(renderer, given.rays, not given.small, given.only, old, keep)
     changed = differences(old, new)
     print("\n".join(changed))

@@ -50,12 +50,12 @@ def _unrefined(rows: Sequence[Row], refined: Row) -> Row | None:
 
 
 def _cells(refined: Row, alone: Row | None, pixel: float) -> list[str]:
-    pairs = [
-        (refined.direction_99 / pixel, alone and alone.direction_99 / pixel),
-        (refined.direction_worst / pixel, alone and alone.direction_worst / pixel),
-        (refined.crossing_r_99, alone and alone.crossing_r_99),
-        (refined.wrong_fates, alone and alone.wrong_fates),
-        (refined.evaluations, alone and alone.evaluations),
-        (refined.cost_flat_ratio, refined.cost_unrefined),
-    ]
-    return [short(value) + ("" if other is None else f" ({short(other)})") for value, other in pairs]
+    costs = f"{short(refined.cost_flat_ratio)} ({short(refined.cost_unrefined)})"
+    own = _figures(refined, pixel)
+    if alone is None:
+        return [*map(short, own), costs]
+    return [*(f"{short(value)} ({short(other)})" for value, other in zip(own, _figures(alone, pixel))), costs]
+
+
+def _figures(row: Row, pixel: float) -> tuple[float, ...]:
+    return row.direction_99 / pixel, row.direction_worst / pixel, row.crossing_r_99, row.wrong_fates, row.evaluations

@@ -9,12 +9,12 @@ import numpy as np
 
 def front(cost: Sequence[float], error: Sequence[float]) -> list[int]:
     """Indices of the points that no other point equals or beats in both, cheapest first; points with NaN are left out."""
-    cost, error = np.asarray(cost, float), np.asarray(error, float)
-    order = np.lexsort((error, cost))
+    costs, errors = np.asarray(cost, float), np.asarray(error, float)
+    order = np.lexsort((errors, costs))
     found: list[int] = []
     lowest = np.inf
     for index in order:
-        if np.isfinite(cost[index]) and error[index] < lowest:
+        if np.isfinite(costs[index]) and errors[index] < lowest:
             found.append(int(index))
-            lowest = error[index]
+            lowest = errors[index]
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -79,7 +80,9 @@ def _method_panel(axes, rows: Sequence[Row], chart_scene: ChartScene) -> None:
         curves.setdefault(row.method, []).append(row)
     for curve in curves.values():
         first = curve[0]
-        style = dict(color=_colour(first.model), marker=_MARKERS.get(first.integrator, "o"), linestyle=_LINES.get(first.step_control, "-"))
+        style: dict[str, Any] = dict(
+            color=_colour(first.model), marker=_MARKERS.get(first.integrator, "o"), linestyle=_LINES.get(first.step_control, "-")
+        )
         if first.refined:
             style |= dict(markerfacecolor="white", linewidth=0.6, markersize=4.5)
         axes.plot([row.cost_flat_ratio for row in curve], [row.direction_99 for row in curve], alpha=0.85, **style)

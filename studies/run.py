@@ -77,7 +77,7 @@ def make(
 
 def plan_choices(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> dict[str, Row]:
     """The row that the plan chooses, by scene; scenes that leave nothing to choose, and choices that were not measured, are left out."""
-    found = {}
+    found: dict[str, Row] = {}
     for chart_scene in scenes:
         if choice.is_open(chart_scene.scene):
             chosen = plan.plan(chart_scene.scene).scene

@@ -121,7 +121,7 @@ def scene_of(case: Case, method: Combination) -> Scene:
 
 
 def _judge_rays(renderer: Renderer, scene: Scene, case: Case) -> Judgement:
-    rays = case.rays(scene)
+    rays = case.rays_in(scene)
     directions = observer.local_directions(rays[:, 0], rays[:, 1])
     hits, _, _ = renderer.trace_listed(scene, directions)
     truth = _truth(case.key, *_true_model(scene))
@@ -162,10 +162,17 @@ def _truth(key: str, twin: str, spin: float) -> reference.ReferenceHits:
     """What a case's rays do in truth; the same for every method that is meant to show the same space-time."""
     case = next(case for case in CASES if case.key == key)
     scene = presets.load(["reference"], {**case.values, "rays.model": twin, "hole.spin": spin})
-    camera, rays = scene.camera, case.rays(scene)
-    place = {"distance": camera.distance, "inclination_deg": camera.inclination_deg, "azimuth_deg": camera.azimuth_deg, "observer": camera.observer}
-    directions = observer.local_directions(rays[:, 0], rays[:, 1])
-    return reference.trace(twin, spin=spin, directions=directions, orders=scene.rays.orders, **place)
+    camera, rays = scene.camera, case.rays_in(scene)
+    return reference.trace(
+        twin,
+        spin=spin,
+        distance=camera.distance,
+        inclination_deg=camera.inclination_deg,
+        azimuth_deg=camera.azimuth_deg,
+        observer=camera.observer,
+        directions=observer.local_directions(rays[:, 0], rays[:, 1]),
+        orders=scene.rays.orders,
+    )
 
 
 def _not_finite(hits: HitArrays) -> int:
@@ -212,7 +219,7 @@ def measured_edge(renderer: Renderer, scene: Scene, chi: np.ndarray) -> tuple[np
         inner = low[:, None] + (high - low)[:, None] * np.arange(1, _SHADOW_TRIALS + 1) / (_SHADOW_TRIALS + 1)
         hits, _, _ = renderer.trace_listed(scene, observer.local_directions(inner, chi[:, None]).reshape(-1, 3))
         fate = hits.fate.reshape(inner.shape)
-        unresolved += np.count_nonzero(fate == UNRESOLVED)
+        unresolved += int(np.count_nonzero(fate == UNRESOLVED))
         captured = np.sum(fate == CAPTURED, axis=1)
         edges = np.concatenate([low[:, None], inner, high[:, None]], axis=1)
         low, high = (edges[np.arange(len(chi)), captured + k] for k in (0, 1))
@@ -231,9 +238,9 @@ def sweep(renderer: Renderer, method: Combination, rays: int, artistic: bool = F
         hits, _, _ = renderer.trace_listed(scene, directions)
         total += len(directions)
         bad += _not_finite(hits)
-        unresolved += np.count_nonzero(hits.fate == UNRESOLVED)
+        unresolved += int(np.count_nonzero(hits.fate == UNRESOLVED))
         if judged:
-            wrong += np.count_nonzero((hits.fate == CAPTURED) != _falls_in(scene, directions))
+            wrong += int(np.count_nonzero((hits.fate == CAPTURED) != _falls_in(scene, directions)))
     if bad:
         return Judgement(FAILS, f"{bad} of {total} not finite")
     if unresolved:
@@ -246,7 +253,8 @@ def sweep(renderer: Renderer, method: Combination, rays: int, artistic: bool = F
 def _falls_in(scene: Scene, directions: np.ndarray) -> np.ndarray:
     camera, seen = scene.camera, observer.observe(scene)
     theta = math.radians(camera.inclination_deg)
-    return relativity.falls_in(*directions.T, camera.distance, theta, seen.spin, seen.kind)
+    n_r, n_theta, n_phi = directions.T
+    return relativity.falls_in(n_r, n_theta, n_phi, camera.distance, theta, seen.spin, seen.kind)
 
 
 def random_scenes(method: Combination, rays: int, artistic: bool, seed: int) -> Iterator[tuple[Scene, np.ndarray]]:

@@ -77,6 +77,16 @@ class Case:
     fates: bool = True
     needs: Literal["", "spin", "steps"] = ""
 
+    def rays_in(self, scene: Scene) -> np.ndarray:
+        """Its rays (N, 2) in `scene`.
+
+        Raises:
+            ValueError: it has none of its own.
+        """
+        if self.rays is None:
+            raise ValueError(f"the case {self.key} measures {self.measure} and has no rays of its own; those that measure rays do")
+        return self.rays(scene)
+
 
 def grid(psi: Any, chi: Any = CHI) -> np.ndarray:
     """Every ψ at every χ, (N, 2)."""

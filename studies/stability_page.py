@@ -163,7 +163,7 @@ def _integrators(judgements: Judgements) -> str:
     text = "Cases that are fine of those that apply, for marched models with their own step control. Where a model is an approximation no integrator helps."
 
     def by_own_control(model: str, integrator: str) -> Combination:
-        return Combination(model, integrator, traits(Combination(model)).step_control)
+        return Combination(model, integrator, traits(Combination(model)).step_control or "")
 
     return _grid(judgements, "Integrators", text, catalogue.keys("integrator"), by_own_control)
 

@@ -123,7 +123,8 @@ def _extent_field(scene: Scene) -> Field:
 
 
 def _extent(scene: Scene) -> float:
-    return scene.get(_extent_field(scene).key)
+    camera = scene.camera
+    return camera.field_m if math.isinf(camera.distance) else camera.distance
 
 
 def _floor(scene: Scene) -> float:

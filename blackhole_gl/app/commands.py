@@ -95,7 +95,7 @@ def reset_camera(state: WindowState) -> None:
     """Sends the camera back to where the home scene has it, the short way round."""
     home = {key: state.home.get(key) for key in fields() if key.startswith("camera.")}
     pose_keys = {key: home.pop(key) for key in _POSE}
-    if math.isinf(pose_keys["camera.distance"]) or math.isinf(state.scene.camera.distance):
+    if math.isinf(state.home.camera.distance) or math.isinf(state.scene.camera.distance):
         # There is no way between a near and an infinitely far camera.
         state.change({**pose_keys, **home})
         return

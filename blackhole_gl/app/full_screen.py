@@ -8,6 +8,8 @@ from typing import Any
 
 import glfw
 
+_NO_MONITOR: Any = None  # glfw's stubs do not know that a window may be on none
+
 
 @dataclass(frozen=True)
 class Rectangle:
@@ -43,11 +45,12 @@ class FullScreen:
 
     def set(self, on: bool) -> None:
         """Fills the monitor that the window is on, or puts the window back. Without a monitor nothing happens."""
-        if on == (self._before is not None):
+        before = self._before
+        if on == (before is not None):
             return
-        if not on:
-            place, self._before = self._before, None
-            glfw.set_window_monitor(self._window, None, place.x, place.y, place.width, place.height, glfw.DONT_CARE)
+        if before is not None:
+            self._before = None
+            glfw.set_window_monitor(self._window, _NO_MONITOR, before.x, before.y, before.width, before.height, glfw.DONT_CARE)
             return
         monitors = glfw.get_monitors()
         if not monitors:

@@ -36,7 +36,8 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
     imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
     imgui.set_next_window_size_constraints((24.0 * em, 0.0), (40.0 * em, imgui.get_main_viewport().size.y))
     flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
-    visible, state.show_help = imgui.begin("Help", True, flags.value)
+    visible, stays = imgui.begin("Help", True, flags.value)
+    state.show_help = bool(stays)
     if visible:
         _table("keys", [(_keys_text(bindings[action.name]), action.help) for action in ACTIONS])
         imgui.separator()

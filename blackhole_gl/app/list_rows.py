@@ -23,11 +23,12 @@ def edited(item: Field, entries: tuple[Value, ...], widget: Widget, label: Calla
         key = f"{item.key}[{index}]"
         if _button(f"-##{key}", "Take this entry out", len(entries) > item.low):
             new = (*entries[:index], *entries[index + 1 :])
+        changed: Value | None = None
         if item.element is not None:
             imgui.same_line()
             imgui.set_next_item_width(-1.0)
             changed = widget(replace(item.element, key=key), entry)
-        else:
+        elif isinstance(entry, FrozenMap):
             changed = _record(item, key, entry, widget, label)
         if changed is not None:
             new = (*entries[:index], changed, *entries[index + 1 :])

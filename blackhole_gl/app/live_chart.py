@@ -93,7 +93,8 @@ class LiveChart:
         imgui.set_next_window_pos((corner.x + 2.0 * em, corner.y + 8.0 * em), imgui.Cond_.first_use_ever.value)
         imgui.set_next_window_size((44.0 * em, 26.0 * em), imgui.Cond_.first_use_ever.value)
         flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_saved_settings
-        visible, state.show_chart = imgui.begin(TITLE, True, flags.value)
+        visible, stays = imgui.begin(TITLE, True, flags.value)
+        state.show_chart = bool(stays)
         if visible:
             self._status()
             self._plot(state)
@@ -156,7 +157,7 @@ def is_used(point: LivePoint, scene: Scene, ray_plan: Plan) -> bool:
     method = point.method
     if ray_plan.model.key != method.model or any(scene.get(key) != value for key, value in method.changes):
         return False
-    if ray_plan.integrator is None:
+    if ray_plan.integrator is None or ray_plan.step_control is None:
         return True
     setting = {"angle": ray_plan.step_angle, "length": ray_plan.step_length}.get(method.knob)
     same = (ray_plan.integrator.key, ray_plan.step_control.key) == (method.integrator, method.step_control)

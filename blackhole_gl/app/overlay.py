@@ -11,7 +11,7 @@ from imgui_bundle import ImVec4, hello_imgui, imgui
 
 from . import compass, theme
 from .picture import Picture
-from .state import WindowState
+from .state import Notice, WindowState
 
 _FLAGS = imgui.WindowFlags_
 _STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
@@ -115,16 +115,16 @@ def messages(state: WindowState, picture: Picture | None, corner: Corner, width:
         corner = _message("Shader", state.shader_error, corner, width, is_error=True)
     if state.render_error:
         corner = _message("Renderer", state.render_error, corner, width, is_error=True)
-    if state.notice and _dismissable("Notice", state, corner, width):
+    if state.notice and _dismissable("Notice", state.notice, corner, width):
         state.notice = None
 
 
-def _dismissable(name: str, state: WindowState, corner: Corner, width: float) -> bool:
-    _begin_message(name, corner, width, _FIXED if state.notice.is_error else UNTOUCHED)
-    dismissed = state.notice.is_error and imgui.small_button("x")
-    if state.notice.is_error:
+def _dismissable(name: str, notice: Notice, corner: Corner, width: float) -> bool:
+    _begin_message(name, corner, width, _FIXED if notice.is_error else UNTOUCHED)
+    dismissed = notice.is_error and imgui.small_button("x")
+    if notice.is_error:
         imgui.same_line()
-    _body(state.notice.text, state.notice.is_error, width)
+    _body(notice.text, notice.is_error, width)
     imgui.end()
     return dismissed
 

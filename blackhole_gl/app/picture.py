@@ -116,7 +116,9 @@ class Picture:
         if step is None:
             return False
         scale = COARSEST[True] if step.rehearses else self._pace.scale(scene.playback.target_fps, now, moving=moving, camera_moving=camera_moving)
-        progressive = step.rehearsal if step.rehearses else camera_moving or not (exact or self.is_current and self.is_sharp)
+        progressive = step.rehearsal
+        if progressive is None:
+            progressive = camera_moving or not (exact or self.is_current and self.is_sharp)
         drawing = Drawing(step.drawn, time, area.scaled(scale), progressive)
         if drawing == self._made_of and self.is_sharp and not step.rehearses:
             return self._improve(drawing)

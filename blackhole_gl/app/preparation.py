@@ -21,6 +21,9 @@ FIRST_SHARE_S = 0.25
 _PATIENCE_S = 30.0  # for the other process, on a busy machine; then the window does it alone
 
 
+Submit = Callable[[Scene, tuple[int, int]], Future]
+
+
 class Preparation:
     """Decides from frame to frame.
 
@@ -31,7 +34,7 @@ class Preparation:
         since: when what is missing was first missed, in seconds; None when nothing is.
     """
 
-    def __init__(self, submit: Callable[[Scene, tuple[int, int]], Future] | None):
+    def __init__(self, submit: Submit | None):
         self._submit = submit
         self._elsewhere: Future | None = None
         self._may_compile = True  # the first picture has nothing to wait for: there is none to show meanwhile
@@ -40,7 +43,7 @@ class Preparation:
 
     def waits(self, now: float) -> bool:
         """Whether to draw no picture in this frame, as the other process is at work."""
-        if self._elsewhere is None:
+        if self._elsewhere is None or self.since is None:
             return False
         if not self._elsewhere.done() and now - self.since < _PATIENCE_S:
             return True
@@ -57,15 +60,15 @@ class Preparation:
         """A program of `scene` was missing; its first picture will have this `size`."""
         if self.since is None:
             self.since = now
-        if not self._may_compile:
-            self._hand_over(scene, size)
+        if self._submit is not None and not self._may_compile:
+            self._hand_over(self._submit, scene, size)
 
     def over(self) -> None:
         """Nothing is missing any more: a picture is there, or an error."""
         self.since, self._may_compile, self._share = None, self._submit is None, FRAME_SHARE_S
 
-    def _hand_over(self, scene: Scene, size: tuple[int, int]) -> None:
+    def _hand_over(self, submit: Submit, scene: Scene, size: tuple[int, int]) -> None:
         try:
-            self._elsewhere = self._submit(scene, size)
+            self._elsewhere = submit(scene, size)
         except RuntimeError:  # the other process has ended
             self._submit, self._may_compile = None, True

@@ -106,7 +106,7 @@ class Readiness:
     def missed(self, step: Step, size: tuple[int, int], now: float) -> None:
         """A program of what `step` says was missing; the first rehearsal of it will have this `size`."""
         self.preparation.missed(step.asked, size, now)
-        if self.is_over and not self.bridges and self._last.bridges(step.asked):
+        if self.is_over and not self.bridges and self._last is not None and self._last.bridges(step.asked):
             self._prepared = TracedBy.of(step.asked, step.asked)
         else:
             self._done = 0
@@ -120,4 +120,5 @@ class Readiness:
         the camera may be where the plan takes a third by then. None where nothing is prepared, or the scene is another one altogether."""
         if self.preparation.since is None or not self.is_over:
             return None
-        return (self._last if waits else self._prepared).stated_in(scene)
+        way = self._last if waits else self._prepared
+        return None if way is None else way.stated_in(scene)

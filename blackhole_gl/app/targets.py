@@ -8,6 +8,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from ..render.target import Target
 from ..scene import Scene
 from .area import Area
 
@@ -50,8 +51,8 @@ class Targets:
         self._gl = gl
         self._renderer = renderer
         self._triangle = gl.vertex_array(gl.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT), [])
-        self._shown: moderngl.Framebuffer | None = None
-        self._spare: moderngl.Framebuffer | None = None
+        self._shown: Target | None = None
+        self._spare: Target | None = None
         self._in_window: Drawing | None = None  # the last picture, where only the window has it
         self._is_there = False  # that, in this frame
 
@@ -61,7 +62,7 @@ class Targets:
 
     def render(self, drawing: Drawing) -> Any:
         """Draws into the texture; returns the report."""
-        target = self._spare_of(drawing.size)
+        target = self._spare_of(drawing.size).frame
         report = self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, measure=True, progressive=drawing.progressive)
         self._show_spare()
         return report
@@ -77,7 +78,7 @@ class Targets:
 
     def render_finer(self, drawing: Drawing) -> int:
         """Draws the picture in the texture once more, with one more ray a pixel; returns how many it is the mean of."""
-        samples = self._renderer.render_finer(drawing.scene, drawing.time, drawing.size, target=self._spare_of(drawing.size))
+        samples = self._renderer.render_finer(drawing.scene, drawing.time, drawing.size, target=self._spare_of(drawing.size).frame)
         self._show_spare()
         return samples
 
@@ -93,7 +94,7 @@ class Targets:
         self._clear_beside(window, area)
         if self._shown is None or area.is_empty:
             return
-        texture = self._shown.color_attachments[0]
+        texture = self._shown.texture
         # Smooth only where it is enlarged: pixel for pixel it looks the same, for less.
         filtering = moderngl.NEAREST if texture.size == area.size else moderngl.LINEAR
         texture.filter = (filtering, filtering)
@@ -102,24 +103,29 @@ class Targets:
         self._triangle.render(moderngl.TRIANGLES, vertices=3)
 
     def read_rgb8(self) -> np.ndarray:
-        """The picture in the texture as uint8 (height, width, 3), top row first."""
+        """The picture in the texture as uint8 (height, width, 3), top row first.
+
+        Raises:
+            RuntimeError: none has been drawn.
+        """
+        if self._shown is None:
+            raise RuntimeError("no picture has been drawn yet: `render` comes first")
         width, height = self._shown.size
-        data = np.frombuffer(self._shown.read(components=3, alignment=1), np.uint8)
+        data = np.frombuffer(self._shown.frame.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
     def _show_spare(self) -> None:
         self._shown, self._spare = self._spare, self._shown
         self._in_window = None
 
-    def _spare_of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+    def _spare_of(self, size: tuple[int, int]) -> Target:
         """What the next picture goes into. The one shown is left alone: should rendering fail, it is the last good one."""
         if self._spare is None or self._spare.size != size:
             if self._spare is not None:
-                self._spare.color_attachments[0].release()
                 self._spare.release()
             texture = self._gl.texture(size, 4)
             texture.repeat_x = texture.repeat_y = False
-            self._spare = self._gl.framebuffer([texture])
+            self._spare = Target.of(self._gl, [texture])
         return self._spare
 
     def _clear_beside(self, window: moderngl.Framebuffer, area: Area) -> None:

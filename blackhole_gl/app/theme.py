@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from imgui_bundle import ImVec4, hello_imgui, imgui
+from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 FONT_SIZE = 15.0  # at 96 dpi; the runner scales it for the screen at hand
 
@@ -55,10 +55,10 @@ def apply() -> None:
     # In pixels of a 96 dpi screen: there is no font yet, and the runner scales all of them for the screen at hand.
     style.frame_rounding = style.grab_rounding = style.popup_rounding = 3.0
     style.window_rounding = 5.0
-    style.frame_padding = (7.0, 3.5)
-    style.item_spacing = (7.0, 5.0)
-    style.window_padding = (10.0, 9.0)
-    style.cell_padding = (4.0, 1.5)
+    style.frame_padding = ImVec2(7.0, 3.5)
+    style.item_spacing = ImVec2(7.0, 5.0)
+    style.window_padding = ImVec2(10.0, 9.0)
+    style.cell_padding = ImVec2(4.0, 1.5)
     style.scrollbar_size = 11.0
     style.grab_min_size = 9.0
     style.window_border_size = 0.0

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from imgui_bundle import hello_imgui, imgui
 
 from ..scene import catalogue, instances
-from ..scene.schema import Field, Value
+from ..scene.schema import Field, Value, describe, number_of
 from . import list_rows, text_fields, theme
 
 Change = Callable[[Mapping[str, Value]], None]
@@ -40,7 +40,7 @@ def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = Ma
     _label(item, value, change)
     imgui.table_next_column()
     imgui.set_next_item_width(-1.0)
-    edited = _choice(item, value, unfit) if item.kind == "choice" else _widget(item, value)
+    edited = _widget(item, value, unfit)
     _tooltip(item)
     _menu(item, f"widget {item.key}", change)
     if edited is not None and edited != value:
@@ -49,17 +49,17 @@ def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = Ma
 
 def _mark(item: Field, value: Value, change: Change) -> None:
     """A dot before a value that departs from physics; a click on it goes back to physics."""
-    size = 0.5 * hello_imgui.em_size()
-    if not departs(item, value):
+    size, physical = 0.5 * hello_imgui.em_size(), item.physical
+    if physical is None or not departs(item, value):
         imgui.dummy((size, size))
         imgui.same_line(0.0, 0.35 * hello_imgui.em_size())
         return
     if imgui.invisible_button(f"##departs {item.key}", (size, imgui.get_frame_height())):
-        change({item.key: item.physical})
+        change({item.key: physical})
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     centre = (0.5 * (low.x + high.x), 0.5 * (low.y + high.y))
     imgui.get_window_draw_list().add_circle_filled(centre, 0.5 * size, imgui.get_color_u32(theme.DEPARTS))
-    imgui.set_item_tooltip(f"Departs from physics: the physical value is {format_value(item, item.physical)}. Click to go back to it.")
+    imgui.set_item_tooltip(f"Departs from physics: the physical value is {format_value(item, physical)}. Click to go back to it.")
     imgui.same_line(0.0, 0.35 * hello_imgui.em_size())
 
 
@@ -106,15 +106,15 @@ def _tooltip(item: Field) -> None:
     imgui.end_tooltip()
 
 
-def format_value(item: Field, value: Value | None) -> str:
+def format_value(item: Field, value: Value) -> str:
     """`value` of `item` as people read it, with its unit."""
     if item.kind == "switch":
         return "on" if value else "off"
     if item.kind == "choice":
         return str(value).replace("_", " ")
-    if item.kind == "list":
+    if isinstance(value, tuple):
         return f"{len(value)} entries" if value else "an empty list"
-    if item.kind in ("text", "file"):
+    if isinstance(value, str):
         return value or "nothing"
     return f"{value:g} {item.unit}".strip()
 
@@ -159,7 +159,7 @@ def _slider_or_infinity(item: Field, value: float) -> float | None:
     imgui.same_line()
     toggled, now_far = imgui.checkbox(f"far##infinite {item.key}", far)
     if toggled:
-        return math.inf if now_far else item.default
+        return math.inf if now_far else number_of(item.default)
     return edited
 
 
@@ -187,16 +187,20 @@ def _text(item: Field, value: str) -> str | None:
     return text_fields.edited(f"##{item.key}", value, "a file" if item.kind == "file" else "")
 
 
-def _list(item: Field, value: tuple[Value, ...]) -> tuple[Value, ...] | None:
-    return list_rows.edited(item, value, _widget, label_of)
+def _widget(item: Field, value: Value, unfit: Mapping[str, str] = MappingProxyType({})) -> Value | None:
+    """Draws the widget of `item`; what the user made of `value`, or None. `unfit`: see `row`."""
+    if isinstance(value, bool):
+        return _switch(item, value)
+    if isinstance(value, str):
+        return _choice(item, value, unfit) if item.kind == "choice" else _text(item, value)
+    if isinstance(value, tuple):
+        return list_rows.edited(item, value, _widget, label_of)
+    if isinstance(value, (int, float)):
+        return _whole_slider(item, int(value)) if item.kind == "int" else _slider(item, value)
+    raise TypeError(f"{item.key}: got {describe(value)}, which has no widget of its own")
 
 
-def _widget(item: Field, value: Value) -> Value | None:
-    """Draws the widget of `item`; what the user made of `value`, or None."""
-    return _WIDGETS[item.kind](item, value)
-
-
-def _choice(item: Field, value: str, unfit: Mapping[str, str] = MappingProxyType({})) -> str | None:
+def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     slot = _slot_of(item.key)
     plug_ins = catalogue.plug_ins(slot) if slot else {}
     names = {option: plug_ins[option].label if option in plug_ins else option.replace("_", " ") for option in item.options}
@@ -211,6 +215,3 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str] = MappingProxyType
                 imgui.set_tooltip(unfit.get(option, plug_ins[option].summary))
         imgui.end_combo()
     return picked
-
-
-_WIDGETS = {"float": _slider, "int": _whole_slider, "switch": _switch, "choice": _choice, "text": _text, "file": _text, "list": _list}

@@ -113,7 +113,11 @@ def _open_platform(null_platform: bool) -> None:
     if null_platform:
         glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
     said: list[str] = []
-    glfw.set_error_callback(lambda code, text: said.append(text.decode("utf-8", "replace")))
+
+    def hear(code: int, text: Any) -> None:  # bytes, whatever glfw's stubs say
+        said.append(text.decode("utf-8", "replace"))
+
+    glfw.set_error_callback(hear)
     if not glfw.init():
         raise WindowError(f"no window can be opened: {said[-1] if said else 'GLFW does not start'}. Without a display, use `blackhole-gl render`.")
     if null_platform:
@@ -180,7 +184,7 @@ class Window:
         self.open(scene, preset_names)
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
-        self.picture: Picture | None = None
+        self._picture: Picture | None = None
         self._shortcuts = Shortcuts(self.bindings)
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
@@ -210,15 +214,26 @@ class Window:
     def start(self) -> None:
         """Once, when the context is there."""
         self._gl = moderngl.create_context(require=330)
-        self.picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
+        self._picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
         self._full_screen = FullScreen(_glfw_window())
+
+    @property
+    def picture(self) -> Picture:
+        """What shows the scene.
+
+        Raises:
+            WindowError: the window has no context yet.
+        """
+        if self._picture is None:
+            raise WindowError("the window has no picture before the runner has made its context and called `start`")
+        return self._picture
 
     def before_frame(self) -> None:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
         busy = self.state.is_moving or self.live_chart.busy(self.state) or self._has_more_to_draw()
-        preparing = self.picture is not None and self.picture.preparation.since is not None and not self.picture.bridges
+        preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else _IDLE_FPS
         self._full_screen.set(self.state.full_screen)
@@ -234,8 +249,7 @@ class Window:
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
         em = hello_imgui.em_size()
-        if self.picture is not None:
-            overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         view_scale.draw(state, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
@@ -244,7 +258,7 @@ class Window:
 
     def draw_panel(self) -> None:
         """The panel's own window."""
-        report = self.picture.report if self.picture else None
+        report = self.picture.report
         self._panel.draw(self.state, report.reasons if report else ())
 
     def draw_picture(self) -> None:
@@ -283,7 +297,7 @@ class Window:
 
     def _has_more_to_draw(self) -> bool:
         """Whether the picture that rests is still to come."""
-        return self.state.render_error is None and not (self.picture and self.picture.is_final)
+        return self.state.render_error is None and not self.picture.is_final
 
     def _is_minimised(self) -> bool:
         return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))

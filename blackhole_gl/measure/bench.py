@@ -171,10 +171,11 @@ def _rows(
                 wall[name].append(tuple(map(statistics.median, zip(*taken))))
     found = []
     for name, scene in compared.items():
-        whole, *parts = (statistics.median(column) for column in zip(*wall[name]))
+        whole, trace, shade, post = (statistics.median(column) for column in zip(*wall[name]))
         ratio = statistics.median(a[0] / b[0] for a, b in zip(wall[name], wall[YARDSTICK]))
         in_e = statistics.median(times[1] / e for times, e in zip(wall[name], euler_ms)) if yardstick else None
-        found.append(Frames(name, _method(scene, motion), motion, *size, whole, *parts, ratio, min(processor[name]), in_e, own_rays[name]))
+        cost = min(processor[name])
+        found.append(Frames(name, _method(scene, motion), motion, size[0], size[1], whole, trace, shade, post, ratio, cost, in_e, own_rays[name]))
     return found
 
 

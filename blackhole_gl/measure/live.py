@@ -103,18 +103,19 @@ class Live:
             return False
         if self._truth is None:
             self._truth = self._worker.submit(_find_truth, self.scene)
-        if not self._truth.done():
+        truth = self._truth
+        if not truth.done():
             return False
         found, end = len(self.points), clock.perf_counter() + _BUDGET_S
         while self.busy and clock.perf_counter() < end:
-            self._next_bit(renderer)
+            self._next_bit(renderer, truth)
         return len(self.points) > found
 
-    def _next_bit(self, renderer: Renderer) -> None:
+    def _next_bit(self, renderer: Renderer, truth: Future[_Truth]) -> None:
         try:
             # The last bit of a point ends the generator, and may leave nothing to go on with.
             if next(self._bits, "over") == "over" and self._left:
-                self._bits = self._measure(renderer, *self._left[0], self._truth.result())
+                self._bits = self._measure(renderer, *self._left[0], truth.result())
         except ValueError:  # a camera where this model has no observer
             self._left = [item for item in self._left if item[0] != self._left[0][0]]
             self._bits = iter(())

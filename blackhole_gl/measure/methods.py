@@ -9,6 +9,7 @@ from typing import Any
 from ..plan.choice import REFINED_TOLERANCE
 from ..scene import Scene, catalogue
 from ..scene.catalogue import PlugIn
+from ..scene.traits import RayModelTraits
 
 # From steps that only just hold together to steps that add more rounding than they take away; every quality preset's κ is among them.
 ANGLES = (0.8, 0.56, 0.4, 0.28, 0.2, 0.1, 0.05, 0.025)  # κ, rad
@@ -35,14 +36,14 @@ class Combination:
     """A ray model, an integrator and a step control that go together: a method but for its step. The last two are empty for closed models.
 
     Attributes:
-        changes: switches of a closed model that are not as they come, as (key, value) pairs.
+        changes: switches and whole numbers of a closed model that are not as they come, as (key, value) pairs.
         refined: whether the hit map is refined, as while a camera moves: a coarse grid of exact rays, and the pixels that cannot be interpolated.
     """
 
     model: str
     integrator: str = ""
     step_control: str = ""
-    changes: tuple[tuple[str, bool], ...] = ()
+    changes: tuple[tuple[str, bool | int], ...] = ()
     refined: bool = False
 
     @property
@@ -118,7 +119,7 @@ def worth_refining(scene: Scene, quick: bool = False) -> list[Combination]:
     spins = scene.hole.spin != 0.0
     models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and _is_separated(model) and model.traits.spins == spins]
     integrators = _BEST if spins and not quick else ("rk4",)
-    marched = [method for model in models for method in _fitting(model.key, integrators, [model.traits.step_control])]
+    marched = [method for model in models for method in _fitting(model.key, integrators, _own_control(model))]
     closed = [Combination(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits.kind == "closed"]
     return [replace(method, refined=True) for method in marched + closed]
 
@@ -133,17 +134,22 @@ def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Combinatio
         yield Combination(model.key)
         yield from (Combination(model.key, changes=((key, not item.default),)) for key, item in model.parameters.items() if item.kind == "switch")
         return
-    own = model.traits.step_control
+    own = _own_control(model)
     if not exact_for(model, scene):
-        yield from _fitting(model.key, ["rk4"], [own])
+        yield from _fitting(model.key, ["rk4"], own)
     elif not whole:
-        yield from _fitting(model.key, _BEST, [own])
+        yield from _fitting(model.key, _BEST, own)
         yield from _fitting(model.key, _BEST, _pair_controls())
     else:
-        yield from _fitting(model.key, catalogue.keys("integrator"), [own])
-        yield from _fitting(model.key, ["rk4"], [key for key in catalogue.keys("step_control") if key != own])
+        yield from _fitting(model.key, catalogue.keys("integrator"), own)
+        yield from _fitting(model.key, ["rk4"], [key for key in catalogue.keys("step_control") if key not in own])
         yield from _fitting(model.key, catalogue.keys("integrator"), _pair_controls())
         yield from _fitting(model.key, ["euler", "verlet"], ["fixed"])
+
+
+def _own_control(model: PlugIn[RayModelTraits]) -> list[str]:
+    """The step control that suits `model` best; none for a closed one."""
+    return [] if model.traits.step_control is None else [model.traits.step_control]
 
 
 def _pair_controls() -> list[str]:

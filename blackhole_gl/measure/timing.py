@@ -66,7 +66,7 @@ def interleaved(
             if counted >= 0:
                 times[name].append(seconds)
     found = {}
-    for name, seconds in times.items():
-        ratios = [a / b for a, b in zip(seconds, times[yardstick])]
-        found[name] = Timing(1e3 * statistics.median(seconds), statistics.median(ratios), (min(ratios), max(ratios)))
+    for name, taken in times.items():
+        ratios = [a / b for a, b in zip(taken, times[yardstick])]
+        found[name] = Timing(1e3 * statistics.median(taken), statistics.median(ratios), (min(ratios), max(ratios)))
     return found

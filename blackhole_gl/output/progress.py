@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar  # imported when there is something to show
+
+
+class Show(Protocol):
+    """Shows how much is done."""
+
+    def __call__(self, share: float, what: str = "") -> None:
+        """The share done, 0…1, and what is being done; the line's own label when empty."""
 
 
 class Progress:
     """A line on standard error that shows the share done, once a second has passed."""
 
     def __init__(self, label: str):
-        self._label, self._bar = label, None
+        self._label = label
+        self._bar: Bar | None = None
 
-    def __enter__(self) -> Callable[[float], None]:
+    def __enter__(self) -> Show:
         import time
 
         self._start = time.monotonic()

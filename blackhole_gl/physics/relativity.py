@@ -262,14 +262,14 @@ def _axis_orbit(spin: float) -> float:
     """s of the orbit with lambda = 0, which passes over the poles; 0 by convention at a* = 0 (lambda is then free)."""
     if spin == 0.0:
         return 0.0
-    return float((_barrier_offset(np.float64(spin * spin), np.float64(0.0)) - 2.0) / spin)
+    return float((_barrier_offset(np.asarray(spin * spin), np.asarray(0.0)) - 2.0) / spin)
 
 
 def _visible_orbits(spin: float, theta: float) -> tuple[float, float]:
     """Range of s of the spherical orbits that reach polar angle theta: roots of beta^2 to either side of lambda = 0."""
     cosine, sine = np.cos(theta), np.sin(theta)
     middle = _axis_orbit(spin)
-    ends = [float(_photon_orbit_offset(np.float64(x))) / spin for x in (spin, -spin)]
+    ends = [float(_photon_orbit_offset(np.asarray(x))) / spin for x in (spin, -spin)]
     limits = []
     for end in sorted(ends):
         inside, outside = middle, end
@@ -314,7 +314,7 @@ def falls_in(n_r: ArrayLike, n_theta: ArrayLike, n_phi: ArrayLike, r: ArrayLike,
     n_r, a, bound = np.asarray(n_r, dtype=np.float64), np.float64(spin), photon.energy <= 0.0
     energy = np.where(bound, 1.0, photon.energy)
     a_lambda = a * sine * photon.l_over_sin / energy
-    y = _barrier_offset(a * a, a_lambda)
+    y = _barrier_offset(np.asarray(a * a), a_lambda)
     r_p, root = 1.0 + y, np.sqrt((1.0 - a) * (1.0 + a))
     steepness = np.where(y > 0.0, (y - root) * (y + root) / np.where(y > 0.0, y, 1.0) ** 2, 1.0)  # Delta/(r-1)^2 at r_p
     q = r_p * (r_p - 4.0 * steepness)
@@ -377,13 +377,13 @@ def deflection(b: ArrayLike) -> Array:
 
 def carlson_rf(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
     """Carlson's R_F = 1/2 int_0^inf dt/sqrt((t+x)(t+y)(t+z)), all >= 0, at most one of them 0 (Carlson 1995, duplication)."""
-    x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=np.float64) for v in (x, y, z)))
+    u, v, w = np.broadcast_arrays(*(np.asarray(given, dtype=np.float64) for given in (x, y, z)))
     for _ in range(14):  # the spread falls by 4 each time; then the series is good to its 8th power
-        rx, ry, rz = np.sqrt(x), np.sqrt(y), np.sqrt(z)
-        shift = rx * ry + ry * rz + rz * rx
-        x, y, z = 0.25 * (x + shift), 0.25 * (y + shift), 0.25 * (z + shift)
-    mean = (x + y + z) / 3.0
-    dx, dy = 1.0 - x / mean, 1.0 - y / mean
+        ru, rv, rw = np.sqrt(u), np.sqrt(v), np.sqrt(w)
+        shift = ru * rv + rv * rw + rw * ru
+        u, v, w = 0.25 * (u + shift), 0.25 * (v + shift), 0.25 * (w + shift)
+    mean = (u + v + w) / 3.0
+    dx, dy = 1.0 - u / mean, 1.0 - v / mean
     dz = -dx - dy
     e2, e3 = dx * dy - dz * dz, dx * dy * dz
     return (1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0) / np.sqrt(mean)

@@ -13,6 +13,7 @@ from functools import lru_cache
 from ..physics.space_time import ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
+from ..scene.schema import number_of
 from .measured import Measured, Method, read
 
 AUTO = "auto"
@@ -185,7 +186,7 @@ def _stated_method(scene: Scene) -> Method:
     if model.traits.kind == "closed":
         return Method(model.key, "", "", 0.0, 0.0, 0.0)
     if catalogue.plug_ins("step_control")[rays.step_control].traits.adapts:
-        return Method(model.key, rays.integrator, rays.step_control, 0.0, 0.0, scene.get(f"rays.{rays.step_control}.tolerance"))
+        return Method(model.key, rays.integrator, rays.step_control, 0.0, 0.0, number_of(scene.get(f"rays.{rays.step_control}.tolerance")))
     angular = model.traits.marches_in == "mino"
     return Method(model.key, rays.integrator, rays.step_control, 0.0 if angular else rays.step_length, rays.step_angle if angular else 0.0, 0.0)
 

@@ -140,7 +140,7 @@ def unfit_options(key: str, scene: Scene) -> dict[str, str]:
         return {}
     found = {}
     for option in catalogue.keys(key.removeprefix("rays.")):
-        if made.integrator is None:
+        if made.integrator is None or made.step_control is None:
             reasons = [f"{made.model.key} goes from pixel to hits at once and takes no steps"]
         elif key == "rays.integrator":
             reasons = catalogue.reasons_against(made.model.key, option, made.step_control.key)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -97,5 +98,8 @@ def from_texts(record: Mapping[str, str]) -> Measured:
 
     A column that is not there is one left empty: tables from before there was refinement lack the last two.
     """
-    kinds = {"str": str, "float": lambda text: float(text or "nan"), "int": lambda text: int(text or "0")}
-    return Measured(**{item.name: kinds[item.type](record.get(item.name, "")) for item in fields(Measured)})
+    return Measured(**{item.name: _READ[str(item.type)](record.get(item.name, "")) for item in fields(Measured)})
+
+
+_READ: Mapping[str, Callable[[str], Any]] = {"str": str, "float": lambda text: float(text or "nan"), "int": lambda text: int(text or "0")}
+"""By the names of the columns' types."""

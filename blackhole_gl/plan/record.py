@@ -80,7 +80,8 @@ class Plan:
         if self.integrator is None or self.step_control is None:
             return 0
         scheme, control = self.integrator.traits, self.step_control.traits
-        return (scheme.pair_evaluations if control.needs_pair else scheme.evaluations) * control.integrator_steps
+        pair = scheme.pair_evaluations if control.needs_pair else None
+        return (scheme.evaluations if pair is None else pair) * control.integrator_steps
 
     @property
     def method(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+from typing import Any
 
 import moderngl
 
@@ -47,8 +48,12 @@ def describe(ctx: moderngl.Context) -> str:
     return f"{ctx.info['GL_RENDERER']}, OpenGL {ctx.info['GL_VERSION']}"
 
 
+def _context(**settings: Any) -> moderngl.Context:
+    return moderngl.create_context(require=330, **settings)
+
+
 def _egl() -> moderngl.Context:
-    return moderngl.create_context(standalone=True, backend="egl", require=330)
+    return _context(standalone=True, backend="egl")
 
 
 class _GlfwLoader:
@@ -89,7 +94,7 @@ def _osmesa() -> moderngl.Context:
     if not window:
         raise ContextError("OSMesa cannot be loaded")
     glfw.make_context_current(window)
-    return moderngl.create_context(require=330, context=_GlfwLoader(glfw, window))
+    return _context(context=_GlfwLoader(glfw, window))
 
 
 _MAKERS = {"egl": _egl, "osmesa": _osmesa}

@@ -13,7 +13,7 @@ from ..scene import Scene, presets
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
-from .views import View, linear_light, view_of
+from .views import Scale, View, linear_light, view_of
 
 _COLOURS = 256
 
@@ -54,16 +54,25 @@ class ViewPass:
 
         Args:
             reference: hits of the most accurate method, traced before for the view ``difference``; not looked at by others.
+
+        Raises:
+            ValueError: the scene asks for no view.
         """
         scene = inputs.plan.scene
         view = view_of(scene)
+        if view is None:
+            raise ValueError(f"post.view: got {scene.post.view!r}, which is shaded; allowed here are the views in false colours")
         prepared = self._programs.get(f"views/{scene.post.view}.frag", inputs)
         samplers = hit_map.samplers()
         samplers |= {f"exact{k}": texture for k, texture in enumerate(reference.textures)}
         if view.scale is not None:
-            samplers["colour_scale"] = self._scale(view)
+            samplers["colour_scale"] = self._colours(view.scale)
         prepared.sample(samplers)
-        _set_scale(prepared.program, view)
+        if view.scale is not None and "view_range" in prepared.program:
+            prepared.set(view_range=_range(view.scale))
+        legend = prepared.program.get("view_legend", None)
+        if isinstance(legend, moderngl.Uniform):
+            _write_legend(legend, view)
         target.use()
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         prepared.draw()
@@ -74,24 +83,25 @@ class ViewPass:
             texture.release()
         self._scales = {}
 
-    def _scale(self, view: View) -> moderngl.Texture:
-        if view.scale.is_diverging not in self._scales:
-            colours = linear_light(view.scale.colours(_COLOURS)).astype(np.float32)
+    def _colours(self, scale: Scale) -> moderngl.Texture:
+        if scale.is_diverging not in self._scales:
+            colours = linear_light(scale.colours(_COLOURS)).astype(np.float32)
             texture = self._ctx.texture((_COLOURS, 1), 3, colours.tobytes(), dtype="f4", alignment=4)
             texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
             texture.repeat_x = texture.repeat_y = False
-            self._scales[view.scale.is_diverging] = texture
-        return self._scales[view.scale.is_diverging]
+            self._scales[scale.is_diverging] = texture
+        return self._scales[scale.is_diverging]
 
 
-def _set_scale(program: moderngl.Program, view: View) -> None:
-    if "view_range" in program:
-        ends = np.array((view.scale.low, view.scale.high))
-        low, high = np.log(ends) if view.scale.is_log else ends
-        program["view_range"].value = low, high, float(view.scale.is_log)
-    if "view_legend" in program:
-        legend = program["view_legend"]
-        colours = np.zeros((legend.array_length, 3), np.float32)  # drivers cut off what a shader does not use
-        known = linear_light(np.array([colour for _, colour in view.legend]))[: len(colours)]
-        colours[: len(known)] = known
-        legend.write(colours.tobytes())
+def _range(scale: Scale) -> tuple[float, float, float]:
+    """The scale's ends, or their logarithms, and whether they are logarithms."""
+    ends = np.array((scale.low, scale.high))
+    low, high = np.log(ends) if scale.is_log else ends
+    return low, high, float(scale.is_log)
+
+
+def _write_legend(legend: moderngl.Uniform, view: View) -> None:
+    colours = np.zeros((legend.array_length, 3), np.float32)  # drivers cut off what a shader does not use
+    known = linear_light(np.array([colour for _, colour in view.legend]))[: len(colours)]
+    colours[: len(known)] = known
+    legend.write(colours.tobytes())

@@ -18,6 +18,7 @@ from .inputs import FrameInputs
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
+from .target import Target
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
@@ -68,8 +69,8 @@ class Renderer:
         self._shade = ShadePass(ctx, self.programs)
         self._views = diagnostics.ViewPass(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
-        self._radiance: moderngl.Framebuffer | None = None
-        self._picture: moderngl.Framebuffer | None = None
+        self._radiance: Target | None = None
+        self._picture: Target | None = None
 
     def render(
         self,
@@ -100,9 +101,9 @@ class Renderer:
         stamps = [clock.perf_counter()]
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._stamp(stamps, measure)
-        self._shade_into(inputs)
+        radiance = self._shaded(inputs)
         self._stamp(stamps, measure)
-        self._post.draw(inputs, self._radiance.color_attachments[0], target or self._own_picture(size), viewport or (0, 0, *size))
+        self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size))
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         plan = inputs.plan
@@ -130,9 +131,8 @@ class Renderer:
             self._trace(inputs)
         else:
             hit_map.trace(inputs)
-        self._shade_into(inputs, hit_map)
-        mean = self._mean.add(self._radiance_array())
-        self._post.draw(inputs, mean, target or self._own_picture(size), (0, 0, *size))
+        mean = self._mean.add(_radiance_of(self._shaded(inputs, hit_map)))
+        self._post.draw(inputs, mean, target or self._own_picture(size).frame, (0, 0, *size))
         if self._mean.count == supersampling.MOST_SAMPLES:
             self._sample_map.release()
         return self._mean.count
@@ -168,12 +168,11 @@ class Renderer:
             tile = min(TILE, width - x), min(TILE, height - y)
             inputs = FrameInputs(plan, time, tile, size, (x + shift[0], y + shift[1]))
             self._trace(inputs)
-            self._shade_into(inputs)
-            total[y : y + tile[1], x : x + tile[0]] += self._radiance_array() / samples**2
+            total[y : y + tile[1], x : x + tile[0]] += _radiance_of(self._shaded(inputs)) / samples**2
             if progress is not None:
                 progress((done + 1) / len(passes))
         texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
-        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size), (0, 0, *size))
+        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
         texture.release()
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
@@ -189,14 +188,23 @@ class Renderer:
         return hits, shifts, plan
 
     def read_rgb8(self) -> np.ndarray:
-        """The own picture as uint8 (height, width, 3), top row first."""
-        width, height = self._picture.size
-        data = np.frombuffer(self._picture.read(components=3, alignment=1), np.uint8)
+        """The own picture as uint8 (height, width, 3), top row first.
+
+        Raises:
+            RuntimeError: none has been drawn.
+        """
+        picture = _drawn(self._picture)
+        width, height = picture.size
+        data = np.frombuffer(picture.frame.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1].copy()
 
     def radiance(self) -> np.ndarray:
-        """Scene-referred radiance of the last frame as float32 (height, width, 3), top row first."""
-        return self._radiance_array()[::-1, :, :3].astype(np.float32)
+        """Scene-referred radiance of the last frame as float32 (height, width, 3), top row first.
+
+        Raises:
+            RuntimeError: none has been drawn.
+        """
+        return _radiance_of(_drawn(self._radiance))[::-1, :, :3].astype(np.float32)
 
     def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """What became of the rays of the last frame, and the steps they took, each as int (height, width); the hit map has to be sharp."""
@@ -215,10 +223,9 @@ class Renderer:
         self._views.release()
         self._shade.release()
         self._post.release()
-        for framebuffer in (self._radiance, self._picture):
-            if framebuffer is not None:
-                framebuffer.color_attachments[0].release()
-                framebuffer.release()
+        for target in (self._radiance, self._picture):
+            if target is not None:
+                target.release()
         self.programs.release()
         self._radiance = self._picture = None
 
@@ -229,30 +236,39 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _shade_into(self, inputs: FrameInputs, hit_map: HitMap | None = None) -> None:
+    def _shaded(self, inputs: FrameInputs, hit_map: HitMap | None = None) -> Target:
+        """The radiance that the hits of `hit_map`, the own one if there is none, have in the scene."""
         if self._radiance is None or self._radiance.size != inputs.size:
             self._radiance = self._fresh(self._radiance, inputs.size, 4, "f2")
         if diagnostics.is_on(inputs.plan.scene):
-            self._views.draw(inputs, self.hit_map, self.reference_map, self._radiance)
+            self._views.draw(inputs, self.hit_map, self.reference_map, self._radiance.frame)
         else:
-            self._shade.draw(inputs, hit_map or self.hit_map, self._radiance)
+            self._shade.draw(inputs, hit_map or self.hit_map, self._radiance.frame)
+        return self._radiance
 
-    def _own_picture(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+    def _own_picture(self, size: tuple[int, int]) -> Target:
         if self._picture is None or self._picture.size != size:
             self._picture = self._fresh(self._picture, size, 4, "f1")
         return self._picture
 
-    def _fresh(self, old: moderngl.Framebuffer | None, size: tuple[int, int], components: int, dtype: str) -> moderngl.Framebuffer:
+    def _fresh(self, old: Target | None, size: tuple[int, int], components: int, dtype: str) -> Target:
         if old is not None:
-            old.color_attachments[0].release()
             old.release()
-        return self.ctx.framebuffer([self.ctx.texture(size, components, dtype=dtype)])
-
-    def _radiance_array(self) -> np.ndarray:
-        width, height = self._radiance.size
-        return np.frombuffer(self._radiance.color_attachments[0].read(), np.float16).reshape(height, width, 4).astype(np.float32)
+        return Target.of(self.ctx, [self.ctx.texture(size, components, dtype=dtype)])
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:
             self.ctx.finish()
         stamps.append(clock.perf_counter())
+
+
+def _drawn(target: Target | None) -> Target:
+    if target is None:
+        raise RuntimeError("no picture has been drawn yet: `render` comes first")
+    return target
+
+
+def _radiance_of(target: Target) -> np.ndarray:
+    """float32 (height, width, 4), row 0 at the bottom. Waits for the GPU."""
+    width, height = target.size
+    return np.frombuffer(target.texture.read(), np.float16).reshape(height, width, 4).astype(np.float32)

@@ -20,6 +20,7 @@ from .inputs import FrameInputs
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .tables import RAY_UNIT, Tables
+from .target import Target
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
@@ -50,10 +51,9 @@ class HitMap:
         self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
-        self._target: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
-        self._traced: FrameInputs | None = None
+        self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
 
@@ -73,15 +73,15 @@ class HitMap:
         refined = progressive and plan.refine_px > 0.0
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
         self.sharpened = refined and held and not self.is_sharp
-        self._traced = inputs
+        self._last = inputs
         if held and self.is_sharp:
             return False
         self._bind_tables(rays)
-        self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings))
+        target = self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings))
         if not refined:
-            self._trace_rows(rays, 0, inputs.size[1])
+            self._trace_rows(rays, target, 0, inputs.size[1])
         elif self.sharpened:
-            self._sharpen(rays)
+            self._sharpen(rays, target)
         else:
             self._trace_refined(rays)
         self._key = key
@@ -96,6 +96,12 @@ class HitMap:
         if plan.meetings:
             rays.sample(self.instances.samplers(plan.scene), RAY_UNIT + 1)
             rays.set(meeting_reach=plan.reach)
+
+    @property
+    def _traced(self) -> FrameInputs:
+        if self._last is None:
+            raise RuntimeError("the hit map holds nothing yet: `trace` comes first")
+        return self._last
 
     @property
     def is_sharp(self) -> bool:
@@ -126,14 +132,14 @@ class HitMap:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
         return None if self.is_sharp else {"HIT_MAP_REFINED": 2}
 
-    def _trace_rows(self, rays: Draw, first: int, end: int) -> None:
+    def _trace_rows(self, rays: Draw, target: moderngl.Framebuffer, first: int, end: int) -> None:
         """Exact rays for the rows `first` ≤ y < `end`; the map is sharp after the last."""
-        width, height = self._target.size
-        self._target.use()
-        self._target.scissor = 0, first, width, end - first
+        width, height = target.size
+        target.use()
+        target.scissor = 0, first, width, end - first
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         rays.draw()
-        self._target.scissor = None
+        target.scissor = None  # type: ignore[assignment]  # moderngl's stubs lack what they say in words: None is the whole
         if end == height:
             self._refined_for, self._sharp_rows = None, 0
 
@@ -142,13 +148,13 @@ class HitMap:
         self._grid.trace_own_rays(rays, self.textures)
         self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
 
-    def _sharpen(self, rays: Draw) -> None:
-        height = self._target.size[1]
+    def _sharpen(self, rays: Draw, target: moderngl.Framebuffer) -> None:
+        height = target.size[1]
         rows = -(-height // (_SLICES * REFINE_STEP)) * REFINE_STEP
         first, end = self._sharp_rows, min(self._sharp_rows + rows, height)
         self._sharp_rows = end
         self._grid.give_own_rays(rays.inputs, first, end)
-        self._trace_rows(rays, first, end)
+        self._trace_rows(rays, target, first, end)
 
     def forget(self) -> None:
         """The next `trace` traces, whatever is kept."""
@@ -164,8 +170,8 @@ class HitMap:
         listed[:, 0] = -1.0
         listed[:number, :3] = directions
         texture = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
-        self._traced = FrameInputs.whole(plan, 0.0, (width, height))
-        rays = self._programs.get("trace.frag", self._traced, {"RAYS_LISTED": 1})
+        self._last = FrameInputs.whole(plan, 0.0, (width, height))
+        rays = self._programs.get("trace.frag", self._last, {"RAYS_LISTED": 1})
         rays.set(listed_rays=0)
         texture.use(0)
         self._bind_tables(rays)
@@ -178,8 +184,9 @@ class HitMap:
         self._refined_for = None
         found = self.read()
         found = replace(found, momentum=hit_texels.momenta([_texels(kept) for kept in momenta], found.crossing))
-        for made in (target, texture, *momenta):
-            made.release()
+        target.release()
+        for kept in (texture, *momenta):
+            kept.release()
         return found.each(lambda values: values.reshape(-1, *values.shape[2:])[:number])
 
     def emission_shifts(self) -> np.ndarray:
@@ -187,11 +194,10 @@ class HitMap:
         width, height = self.textures[0].size
         probe = self._programs.get("probe.frag", self._traced)
         probe.sample(self.samplers())
-        target = self._ctx.framebuffer([self._ctx.texture((width, height), 4, dtype="f4")])
-        target.use()
+        target = Target.of(self._ctx, [self._ctx.texture((width, height), 4, dtype="f4")])
+        target.frame.use()
         probe.draw()
-        values = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3]
-        target.color_attachments[0].release()
+        values = _texels(target.texture)[..., :3]
         target.release()
         return values
 
@@ -209,13 +215,11 @@ class HitMap:
     def _resolved(self) -> list[np.ndarray]:
         resolve = self._programs.get("refine_resolve.frag", self._traced, self.switches())
         resolve.sample(self.samplers())
-        textures = [self._ctx.texture(texture.size, 4, dtype="f4") for texture in self.textures]
-        target = self._ctx.framebuffer(textures)
-        target.use()
+        target = Target.of(self._ctx, [self._ctx.texture(texture.size, 4, dtype="f4") for texture in self.textures])
+        target.frame.use()
         resolve.draw()
-        found = [_texels(texture) for texture in textures]
-        for made in (target, *textures):
-            made.release()
+        found = [_texels(texture) for texture in target.textures]
+        target.release()
         return found
 
     def _in_world(self, vectors: np.ndarray) -> np.ndarray:
@@ -224,8 +228,8 @@ class HitMap:
         x, y = vectors[..., 0].astype(float), vectors[..., 1].astype(float)
         return np.concatenate([np.stack([c * x - s * y, s * x + c * y], axis=-1), vectors[..., 2:]], axis=-1).astype(np.float32)
 
-    def _make_targets(self, size: tuple[int, int], count: int) -> None:
-        """Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""
+    def _make_targets(self, size: tuple[int, int], count: int) -> moderngl.Framebuffer:
+        """Draws into the first `count` textures. Textures once made are kept while the size stays, so that a disk switched off and on allocates nothing."""
         if self._pool and self._pool[0].size != size:
             self._release_targets()
         while len(self._pool) < count:
@@ -236,7 +240,7 @@ class HitMap:
         self.textures = self._pool[:count]
         if count not in self._targets:
             self._targets[count] = self._ctx.framebuffer(self.textures)
-        self._target = self._targets[count]
+        return self._targets[count]
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -246,9 +250,11 @@ class HitMap:
         self._release_targets()
 
     def _release_targets(self) -> None:
-        for kept in (*self._targets.values(), *self._pool):
-            kept.release()
-        self._targets, self._pool, self._target, self.textures, self._key = {}, [], None, [], None
+        for target in self._targets.values():
+            target.release()
+        for texture in self._pool:
+            texture.release()
+        self._targets, self._pool, self.textures, self._key = {}, [], [], None
 
 
 def _texels(texture: moderngl.Texture) -> np.ndarray:

@@ -53,10 +53,21 @@ class HitArrays:
     met_place: Array | None = None
     met_rates: Array | None = None
 
+    @property
+    def momenta(self) -> Array:
+        """`momentum` of listed rays.
+
+        Raises:
+            ValueError: these are the hits of a picture.
+        """
+        if self.momentum is None:
+            raise ValueError("the hits of a picture have no momenta: they are kept of listed rays alone")
+        return self.momentum
+
     def each(self, function: Callable[[Array], Array]) -> HitArrays:
         """The hits with `function` applied to every array there is."""
         there = {item.name: getattr(self, item.name) for item in fields(self)}
-        return HitArrays(**{name: None if values is None else function(values) for name, values in there.items()})
+        return replace(self, **{name: function(values) for name, values in there.items() if values is not None})
 
 
 def fates_and_steps(texels: Array) -> tuple[Array, Array]:

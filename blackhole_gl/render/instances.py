@@ -12,7 +12,7 @@ import numpy as np
 
 from ..scene import Scene, met
 from ..scene.plug_in import PlugIn
-from ..scene.schema import Field
+from ..scene.schema import Field, number_of
 
 _NUMBERS = ("float", "int", "switch", "choice")
 """Kinds of parameters that shaders know; a choice is known by its place among the options."""
@@ -95,5 +95,5 @@ def _rows(scene: Scene, kind: PlugIn) -> np.ndarray:
     for row, instance in zip(rows, instances):
         for place, item in enumerate(items):
             value = instance.values[item.key]
-            row[place] = item.options.index(value) if item.kind == "choice" else value
+            row[place] = item.options.index(value) if isinstance(value, str) else number_of(value)
     return rows.reshape(len(instances), -1, 4)

@@ -9,6 +9,7 @@ import moderngl
 
 from .inputs import FrameInputs
 from .programs import Draw, Programs
+from .target import Target
 
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
@@ -32,12 +33,12 @@ def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
 class _Level:
     """One level of the bloom: its light lies in the lower left `size` pixels of the texture, which may be a little larger."""
 
-    frame: moderngl.Framebuffer
+    target: Target
     size: tuple[int, int]
 
     @property
     def texture(self) -> moderngl.Texture:
-        return self.frame.color_attachments[0]
+        return self.target.texture
 
 
 class PostPass:
@@ -48,7 +49,7 @@ class PostPass:
         self._size: tuple[int, int] | None = None
         self._down: list[_Level] = []
         self._up: list[_Level] = []
-        self._tone: moderngl.Framebuffer | None = None
+        self._tone: Target | None = None
         self._tone_key: tuple | None = None
 
     def draw(self, inputs: FrameInputs, radiance: moderngl.Texture, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
@@ -73,14 +74,12 @@ class PostPass:
         """Gives the GL objects back."""
         self._release_levels()
         if self._tone is not None:
-            self._tone.color_attachments[0].release()
             self._tone.release()
         self._tone, self._tone_key = None, None
 
     def _release_levels(self) -> None:
         for level in (*self._down, *self._up):
-            level.texture.release()
-            level.frame.release()
+            level.target.release()
         self._down, self._up, self._size = [], [], None
 
     def _tone_table(self, inputs: FrameInputs) -> moderngl.Texture:
@@ -88,12 +87,12 @@ class PostPass:
         curve, post = self._programs.get("post/tone_table.frag", inputs, TONE_TABLE), inputs.plan.scene.post
         key = (curve.serial, post.exposure, post.gamma)
         if self._tone is None:
-            self._tone = self._ctx.framebuffer([_nearest(self._ctx.texture((1 << TONE_TABLE["TONE_COLUMN_BITS"], TONE_TABLE["TONE_ROWS"]), 4))])
+            self._tone = Target.of(self._ctx, [_nearest(self._ctx.texture((1 << TONE_TABLE["TONE_COLUMN_BITS"], TONE_TABLE["TONE_ROWS"]), 4))])
         if key != self._tone_key:
-            self._tone.use()
+            self._tone.frame.use()
             curve.draw()
             self._tone_key = key
-        return self._tone.color_attachments[0]
+        return self._tone.texture
 
     def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
         post = inputs.plan.scene.post
@@ -128,9 +127,9 @@ class PostPass:
         texture = self._ctx.texture(allocated, 4, bytes(8 * allocated[0] * allocated[1]), dtype="f2")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         texture.repeat_x = texture.repeat_y = False
-        frame = self._ctx.framebuffer([texture])
-        frame.viewport = 0, 0, *size
-        return _Level(frame, size)
+        target = Target.of(self._ctx, [texture])
+        target.frame.viewport = 0, 0, *size
+        return _Level(target, size)
 
 
 def _padded(size: tuple[int, int]) -> tuple[int, int]:
@@ -151,7 +150,7 @@ def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: 
 
 
 def _draw_into(level: _Level, prepared: Draw) -> None:
-    level.frame.use()
+    level.target.frame.use()
     prepared.draw()
 
 

@@ -105,12 +105,12 @@ class Draw:
         used = [name for name in samplers if name in self.program]
         for unit, name in enumerate(used, first):
             samplers[name].use(unit)
-            self.program[name].value = unit
+            self.program[name] = unit
 
     def set(self, **uniforms: object) -> None:
         """Sets loose uniforms by name."""
         for name, value in uniforms.items():
-            self.program[name].value = value
+            self.program[name] = value
 
     def draw(self) -> None:
         """Draws the triangle that covers the bound target."""
@@ -183,12 +183,15 @@ class Programs:
 
     def _structure(self, plan: Plan) -> _Structure:
         """A frame asks for several programs with the same plan: worked out once. One that is as before is the same object, found by its identity."""
-        if self._asked is None or self._asked[0] is not plan:
-            paths = ((slot, tuple(plug_in.path for plug_in in chosen(plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS))
-            found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
-            same = self._asked is not None and self._asked[1] == found
-            self._asked = plan, self._asked[1] if same else found
-        return self._asked[1]
+        asked = self._asked
+        if asked is not None and asked[0] is plan:
+            return asked[1]
+        paths = ((slot, tuple(plug_in.path for plug_in in chosen(plan, slot))) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS))
+        found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
+        if asked is not None and asked[1] == found:
+            found = asked[1]
+        self._asked = plan, found
+        return found
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
         switches = dict(structure.switches + extra)
@@ -219,8 +222,9 @@ class Programs:
         except moderngl.Error as error:
             raise composed.explain(str(error)) from None
         for block in uniforms.blocks():
-            if block.name in program:
-                program[block.name].binding = block.binding
+            member = program.get(block.name, None)
+            if isinstance(member, moderngl.UniformBlock):
+                member.binding = block.binding
         self.compiled += 1
         return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []))
 
@@ -232,11 +236,12 @@ class Programs:
 def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
     """The plug-ins of `slots` that the plan and its scene use, in the order of `slots`."""
     scene = plan.scene
-    rays = {"ray_model": plan.model, "integrator": plan.integrator, "step_control": plan.step_control}
+    rays: dict[str, catalogue.PlugIn | None] = {"ray_model": plan.model, "integrator": plan.integrator, "step_control": plan.step_control}
     found: list[catalogue.PlugIn] = []
     for slot in slots:
         if slot in rays:
-            found += [rays[slot]] if rays[slot] else []
+            plug_in = rays[slot]
+            found += [plug_in] if plug_in else []
         elif slot in MET_SLOTS:
             found += met.kinds(scene, slot)
         elif slot == "disk_layer":

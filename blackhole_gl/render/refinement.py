@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -13,6 +14,7 @@ from ..plan import GRID_MARGIN, REFINE_STEP
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
+from .target import Target
 
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
@@ -25,38 +27,63 @@ _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2")
 _NODES_BY_TARGETS = {1: 2, 2: 4, 3: 5}
 
 
-class CoarseGrid:
-    """The coarse rays, the nodes and cells made of them, and what each pixel needs.
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """All that pictures of one size and number of targets are refined with; described in shaders/common/hit_cells.glsl and node_kinds.glsl.
 
     Attributes:
+        made_for: that size and number.
+        rays: the coarse rays' hits.
+        nodes: kinds, then `node_textures` in their order.
+        node_textures: by their names in shaders.
+        cells: 16 bits for each, then their classes.
+        sorted: draws into `classes`.
         classes: depth of the picture's size, as shaders/refine_classes.frag writes it.
-
-    The other textures are described in shaders/common/hit_cells.glsl and node_kinds.glsl.
     """
+
+    made_for: tuple[tuple[int, int], int]
+    rays: Target
+    nodes: Target
+    node_textures: dict[str, moderngl.Texture]
+    cells: Target
+    sorted: moderngl.Framebuffer
+    classes: moderngl.Texture
+
+    def release(self) -> None:
+        for item in (self.rays, self.nodes, self.cells, self.sorted, self.classes):
+            item.release()
+
+
+class CoarseGrid:
+    """The coarse rays, the nodes and cells made of them, and what each pixel needs."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
-        self._made_for: tuple | None = None
-        self._frames: list[moderngl.Framebuffer] = []
-        self._rays: moderngl.Framebuffer | None = None
-        self._nodes: moderngl.Framebuffer | None = None
-        self._cells: moderngl.Framebuffer | None = None
-        self._sorted: moderngl.Framebuffer | None = None
+        self._kept: _Made | None = None
         self._own: moderngl.Framebuffer | None = None
-        self._node_textures: dict[str, moderngl.Texture] = {}
-        self.classes: moderngl.Texture | None = None
+
+    @property
+    def _made(self) -> _Made:
+        if self._kept is None:
+            raise RuntimeError("no coarse grid has been traced yet: `trace` comes first")
+        return self._kept
+
+    @property
+    def classes(self) -> moderngl.Texture:
+        """Depth of the picture's size by what each pixel of the last `trace` needs, as shaders/refine_classes.frag writes it."""
+        return self._made.classes
 
     def trace(self, rays: Draw) -> None:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
         inputs = rays.inputs
-        self._make_targets(inputs.size, textures(inputs.plan.orders))
+        made = self._targets(inputs.size, textures(inputs.plan.orders))
         first = -GRID_MARGIN * REFINE_STEP
         rays.set(ray_grid=(REFINE_STEP, first, first))
-        self._rays.use()
+        made.rays.frame.use()
         rays.draw()
-        self._make_nodes(inputs)
-        self._judge_cells(inputs)
-        self._sort_pixels(inputs, 0, inputs.size[1], all_traced=False)
+        self._make_nodes(inputs, made)
+        self._judge_cells(inputs, made)
+        self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
         """Traces the pixels that cannot be interpolated into `textures`, of the picture's size."""
@@ -76,88 +103,88 @@ class CoarseGrid:
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""
-        return {"cells": self._cells.color_attachments[0], **self._node_textures}
+        made = self._made
+        return {"cells": made.cells.texture, **made.node_textures}
 
     def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
-        cells = self._cells.color_attachments[0]
+        made = self._made
+        cells = made.cells.texture
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
-        self._sort_pixels(inputs, first, end, all_traced=True)
+        self._sort_pixels(inputs, made, first, end, all_traced=True)
 
     def own_rays(self) -> np.ndarray:
         """Which pixels are traced themselves, bool (height, width), row 0 at the bottom; nodes of the grid left out. Waits for the GPU."""
-        texture = self._cells.color_attachments[0]
+        texture = self._made.cells.texture
         cells = np.frombuffer(texture.read(alignment=1), np.uint16).reshape(texture.height, texture.width)
         width, height = self.classes.size
         return np.kron(cells & 3 == 0, np.ones((REFINE_STEP, REFINE_STEP), bool))[:height, :width]
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for frame in self._frames:
-            for texture in frame.color_attachments:
-                texture.release()
-            frame.release()
-        for item in (self._own, self.classes):
+        for item in (self._own, self._kept):
             if item is not None:
                 item.release()
-        self._rays = self._nodes = self._cells = self._sorted = self._own = self.classes = self._made_for = None
-        self._frames, self._node_textures = [], {}
+        self._own, self._kept = None, None
 
-    def _make_nodes(self, inputs: FrameInputs) -> None:
+    def _make_nodes(self, inputs: FrameInputs, made: _Made) -> None:
         nodes = self._programs.get("refine_nodes.frag", inputs)
-        nodes.sample({f"hits{k}": texture for k, texture in enumerate(self._rays.color_attachments)})
+        nodes.sample({f"hits{k}": texture for k, texture in enumerate(made.rays.textures)})
         nodes.set(refine_tolerance=tolerances(inputs))
         if inputs.plan.orders:
             nodes.set(beyond_disk=_BEYOND_DISK)
-        self._nodes.use()
+        made.nodes.frame.use()
         nodes.draw()
 
-    def _judge_cells(self, inputs: FrameInputs) -> None:
+    def _judge_cells(self, inputs: FrameInputs, made: _Made) -> None:
         cells = self._programs.get("refine_cells.frag", inputs)
-        cells.sample({"kinds": self._nodes.color_attachments[0]})
-        self._cells.use()
+        cells.sample({"kinds": made.nodes.texture})
+        made.cells.frame.use()
         cells.draw()
 
-    def _sort_pixels(self, inputs: FrameInputs, first: int, end: int, *, all_traced: bool) -> None:
+    def _sort_pixels(self, inputs: FrameInputs, made: _Made, first: int, end: int, *, all_traced: bool) -> None:
         classes = self._programs.get("refine_classes.frag", inputs)
-        cell_classes = self._cells.color_attachments[1]
+        cell_classes = made.cells.textures[1]
         classes.sample({"cell_classes": cell_classes})
         classes.set(pixels_to_cells=tuple(1.0 / (REFINE_STEP * side) for side in cell_classes.size), all_traced=float(all_traced))
-        self._sorted.use()
-        self._sorted.scissor = 0, first, self.classes.width, end - first
+        made.sorted.use()
+        made.sorted.scissor = 0, first, made.classes.width, end - first
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
         classes.draw()
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
-    def _make_targets(self, size: tuple[int, int], count: int) -> None:
-        if (size, count) == self._made_for:
-            return
-        self.release()
-        cells = tuple(-(-side // REFINE_STEP) for side in size)
-        nodes = tuple(side + 1 + 2 * GRID_MARGIN for side in cells)
-        self._rays = self._framebuffer([self._texture(nodes, 4, "f4") for _ in range(count)])
+    def _targets(self, size: tuple[int, int], count: int) -> _Made:
+        if self._kept is None or self._kept.made_for != (size, count):
+            self.release()
+            self._kept = self._make(size, count)
+        return self._kept
+
+    def _make(self, size: tuple[int, int], count: int) -> _Made:
+        cells = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
+        nodes = cells[0] + 1 + 2 * GRID_MARGIN, cells[1] + 1 + 2 * GRID_MARGIN
         kinds = self._texture(nodes, 1, "u4")
-        self._node_textures = {name: self._texture(nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
-        for texture in self._node_textures.values():
+        node_textures = {name: self._texture(nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
+        for texture in node_textures.values():
             texture.filter = moderngl.LINEAR, moderngl.LINEAR
-        self._nodes = self._framebuffer([kinds, *self._node_textures.values()])
-        self._cells = self._framebuffer([self._texture(cells, 1, "u2"), self._texture(cells, 1, "f1")])
-        self.classes = self._ctx.depth_texture(size)
-        self._sorted = self._framebuffer([], self.classes)
-        self._made_for = size, count
+        classes = self._ctx.depth_texture(size)
+        return _Made(
+            (size, count),
+            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)]),
+            nodes=Target.of(self._ctx, [kinds, *node_textures.values()]),
+            node_textures=node_textures,
+            cells=Target.of(self._ctx, [self._texture(cells, 1, "u2"), self._texture(cells, 1, "f1")]),
+            sorted=self._ctx.framebuffer([], classes),
+            classes=classes,
+        )
 
     def _texture(self, size: tuple[int, int], components: int, dtype: str) -> moderngl.Texture:
         texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
         texture.filter = moderngl.NEAREST, moderngl.NEAREST
         texture.repeat_x = texture.repeat_y = False
         return texture
-
-    def _framebuffer(self, textures: Sequence[moderngl.Texture], depth: moderngl.Texture | None = None) -> moderngl.Framebuffer:
-        self._frames.append(self._ctx.framebuffer(textures, depth))
-        return self._frames[-1]
 
 
 def tolerances(inputs: FrameInputs) -> tuple[float, float]:

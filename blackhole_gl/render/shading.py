@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import moderngl
 import numpy as np
 
@@ -12,6 +14,7 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import SHADE_SLOTS, Draw, Programs, chosen
 from .tables import Tables
+from .target import Target
 
 # Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
 _DISK, _SKY, _FLAT_SKY = PixelClass.MATTER.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
@@ -20,6 +23,18 @@ _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Classes:
+    """The pixels of a sharp map by what they need, as a depth, and what draws into it."""
+
+    depth: moderngl.Texture
+    frame: moderngl.Framebuffer
+
+    def release(self) -> None:
+        self.frame.release()
+        self.depth.release()
 
 
 class ShadePass:
@@ -36,52 +51,57 @@ class ShadePass:
         self._tables = Tables(ctx)
         self._profile: moderngl.Texture | None = None
         self._profile_key: tuple | None = None
-        self._depth: moderngl.Texture | None = None
-        self._classes: moderngl.Framebuffer | None = None
+        self._classes: _Classes | None = None
         self._classes_key: tuple | None = None
         self._disk_box: Box | None = None  # not known before the second frame of the same classes
         self._frame: moderngl.Framebuffer | None = None
-        self._sky: moderngl.Framebuffer | None = None
+        self._sky: Target | None = None
         self._sky_key: tuple | None = None
         self._sky_kept = False
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning)."""
         self._update_profile(inputs.plan)
-        self._attach(target, hit_map.classes or self._sorted_pixels(inputs, hit_map))
+        classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
+        frame = self._attached(target, classes)
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
-        self._lay_sky(inputs, hit_map, target)
+        self._lay_sky(inputs, hit_map, target, frame, classes)
         if inputs.plan.orders or inputs.plan.meetings:
-            self._frame.use()
+            frame.use()
             ctx.enable(moderngl.BLEND)
             # The disk, things and media, and what they let through of the sky behind them: of all colours alike, or of each its own.
             ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
             disk = self._prepared("shade_matter.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
-        ctx.blend_func = moderngl.DEFAULT_BLENDING  # with a second output set nothing can be drawn into several targets, blending or not
+        ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
 
-    def _lay_sky(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
-        """The sky into the target. It does not depend on time: where the same one is asked for again it is kept, and copied from then on."""
+    def _lay_sky(
+        self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, frame: moderngl.Framebuffer, classes: moderngl.Texture
+    ) -> None:
+        """The sky into the target, of which `frame` is the one with the pixels' `classes`.
+
+        It does not depend on time: where the same one is asked for again it is kept, and copied from then on.
+        """
         scene = inputs.plan.scene
         if not scene.sky.enabled:
-            self._clear(self._frame)
+            self._clear(frame)
             return
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
         key = (sky.serial, self._classes_key, inputs.plan.turn_deg, scene.sky, parameters)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
-            self._draw_sky(self._frame, inputs, hit_map)
+            self._draw_sky(frame, inputs, hit_map)
             return
+        if self._sky is None:
+            self._sky = Target.of(self._ctx, [self._ctx.texture(target.size, 4, dtype="f2")], classes)
         if not self._sky_kept:
-            if self._sky is None:
-                self._sky = self._ctx.framebuffer([self._ctx.texture(target.size, 4, dtype="f2")], self._depth)
-            self._draw_sky(self._sky, inputs, hit_map)
+            self._draw_sky(self._sky.frame, inputs, hit_map)
             self._sky_kept = True
-        self._ctx.copy_framebuffer(target, self._sky)
+        self._ctx.copy_framebuffer(target, self._sky.frame)
 
     def _draw_sky(self, frame: moderngl.Framebuffer, inputs: FrameInputs, hit_map: HitMap) -> None:
         self._clear(frame)
@@ -108,7 +128,7 @@ class ShadePass:
         prepared = self._programs.get(path, inputs, switches)
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
         things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
-        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._profile})
+        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures})
         return prepared
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
@@ -122,39 +142,45 @@ class ShadePass:
     def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
         size, plan = hit_map.textures[0].size, inputs.plan
         key = (hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer)
-        if key == self._classes_key:
-            self._disk_box = self._disk_box or _disk_box(self._depth)
-            return self._depth
-        if self._classes is None or self._classes.size != size:
+        made = self._classes
+        if made is not None and key == self._classes_key:
+            self._disk_box = self._disk_box or _disk_box(made.depth)
+            return made.depth
+        if made is None or made.depth.size != size:
             self._release_classes()
-            self._depth = self._ctx.depth_texture(size)
-            self._classes = self._ctx.framebuffer([], self._depth)
+            depth = self._ctx.depth_texture(size)
+            made = self._classes = _Classes(depth, self._ctx.framebuffer([], depth))
         classes = self._prepared("shade_classes.frag", inputs, hit_map, hit_map.switches())
-        self._classes.use()
+        made.frame.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
         classes.draw()
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._classes_key, self._disk_box = key, None
-        return self._depth
+        return made.depth
 
-    def _attach(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> None:
-        """Makes the framebuffer of the target's picture and the pixels' classes, unless it is there."""
+    def _attached(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> moderngl.Framebuffer:
+        """The framebuffer of the target's picture and the pixels' classes, made unless it is there."""
         picture = target.color_attachments[0]
         if self._frame is None or self._frame.color_attachments[0] is not picture or self._frame.depth_attachment is not classes:
             if self._frame is not None:
                 self._frame.release()
             self._frame = self._ctx.framebuffer([picture], classes)
+        return self._frame
 
     def _release_classes(self) -> None:
-        if self._sky is not None:
-            self._sky.color_attachments[0].release()
-        for item in (self._sky, self._frame, self._classes, self._depth):
+        for item in (self._sky, self._frame, self._classes):
             if item is not None:
                 item.release()
-        self._sky, self._frame, self._classes, self._depth = None, None, None, None
+        self._sky, self._frame, self._classes = None, None, None
         self._classes_key, self._sky_key, self._sky_kept = None, None, False
         self._disk_box = None
+
+    @property
+    def _temperatures(self) -> moderngl.Texture:
+        if self._profile is None:
+            raise RuntimeError("nothing has been shaded yet: `draw` makes the temperature profile")
+        return self._profile
 
     def _update_profile(self, plan: Plan) -> None:
         disk = plan.scene.disk

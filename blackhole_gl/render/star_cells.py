@@ -61,7 +61,8 @@ def _u32(value: Array) -> Array:
 
 
 def _three(h: Array) -> tuple[Array, Array, Array]:
-    return tuple((h >> np.uint32(shift) & np.uint32(1023)) / 1023.0 for shift in (0, 10, 20))
+    first, second, third = ((h >> np.uint32(shift) & np.uint32(1023)) / 1023.0 for shift in (0, 10, 20))
+    return first, second, third
 
 
 def _flat(place: Array) -> Array:

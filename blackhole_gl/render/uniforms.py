@@ -158,7 +158,7 @@ def _declared(scene: Scene, *, of_rays: bool) -> dict[str, object]:
 
 def scene_values(plan: Plan) -> dict[str, object]:
     """Values of `scene_block`. The spin is that of the space-time: 0 where the model has none. Infinite distances are given as 0."""
-    values = {name: plan.scene.get(key) for key, name in _number_names()}
+    values: dict[str, object] = {name: plan.scene.get(key) for key, name in _number_names()}
     values["hole_spin"] = plan.space_time.spin
     if math.isinf(plan.scene.camera.distance):
         values["camera_distance"] = 0.0
@@ -172,7 +172,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():
-        found[name] = int(plan.scene.get(key))
+        found[name] = int(plan.scene.get(key) is True)
     for key, names in _choice_names():
         value = plan.scene.get(key)
         found.update({name: int(value == option) for option, name in names})

@@ -8,6 +8,7 @@ from . import catalogue
 from .instances import Instance
 from .plug_in import PlugIn
 from .records import Scene
+from .schema import number_of
 
 SLOTS = ("thing", "medium")
 
@@ -34,5 +35,5 @@ def reach(scene: Scene) -> float:
     for slot in SLOTS:
         known = catalogue.plug_ins(slot)
         for instance in instances(scene, slot):
-            found = max(found, sum(abs(float(instance.values[name])) for name in known[instance.kind].traits.reach))
+            found = max(found, sum(abs(number_of(instance.values[name])) for name in known[instance.kind].traits.reach))
     return found

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from . import headers
 from .headers import Between, CatalogueError
-from .schema import Field, SceneError
+from .schema import Field, Kind, SceneError
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,9 @@ class _Number:
         _two_in_order("range", self.range)
 
     def field(self, key: str, place: str) -> Field:
-        kind = "int" if isinstance(self.default, int) else "float"
-        return Field(key, kind, self.default, *self.range, self.unit, self.help, physical=self.physical)
+        kind: Kind = "int" if isinstance(self.default, int) else "float"
+        low, high = self.range
+        return Field(key, kind, self.default, low, high, self.unit, self.help, physical=self.physical)
 
 
 @dataclass(frozen=True)
@@ -93,10 +94,14 @@ class _List:
     def field(self, key: str, place: str) -> Field:
         element = None if self.element is None else _cell("", {"help": self.help, **self.element}, f"{place}.element")
         columns = tuple(_cell(name, headers.table(entry, f"{place}.{name}"), f"{place}.{name}") for name, entry in (self.columns or {}).items())
-        return Field(key, "list", self.default, *self.length, help=self.help, element=element, columns=columns)
+        least, most = self.length
+        return Field(key, "list", tuple(self.default), least, most, help=self.help, element=element, columns=columns)
 
 
-_STRINGS = {"options": _Choice, "suffixes": _File, "length": _Text}
+_Parameter = _Number | _Switch | _Choice | _Text | _File | _List
+
+_STRINGS: Mapping[str, type[_Parameter]] = {"options": _Choice, "suffixes": _File, "length": _Text}
+_OTHERS: Mapping[type, type[_Parameter]] = {bool: _Switch, int: _Number, float: _Number, list: _List}
 
 
 def field_of(key: str, entry: Mapping[str, Any], place: str) -> Field:
@@ -115,14 +120,14 @@ def field_of(key: str, entry: Mapping[str, Any], place: str) -> Field:
     return replace(item, default=default, physical=physical)
 
 
-def _class_of(entry: Mapping[str, Any], place: str) -> type:
+def _class_of(entry: Mapping[str, Any], place: str) -> type[_Parameter]:
     default = entry["default"]
     if isinstance(default, str):
         found = [kind for name, kind in _STRINGS.items() if name in entry]
         if len(found) != 1:
             raise CatalogueError(f"{place}: a default in quotes needs one of {', '.join(_STRINGS)}: a choice's words, a file's endings, a text's length")
         return found[0]
-    return {bool: _Switch, int: _Number, float: _Number, list: _List}.get(type(default), _Number)
+    return _OTHERS.get(type(default), _Number)
 
 
 def _cell(name: str, entry: Mapping[str, Any], place: str) -> Field:

@@ -52,8 +52,12 @@ class Scene:
         known = fields().get(key)
         if known is not None:
             return self.parameters.get(key, known.default)
-        place = instances.place_of(self.field(key).key)
-        instance = getattr(self, place.section)[place.name]
+        place = instances.place_of(key)
+        if place is None:
+            raise _unknown(key)
+        named = getattr(self, place.section)
+        instances.field_of(place, named)  # says so where there is none
+        instance = named[place.name]
         return instance.kind if place.parameter == catalogue.KIND else instance.values[place.parameter]
 
     def field(self, key: str) -> Field:
@@ -103,7 +107,7 @@ class Scene:
                 parameters[key] = value
         changed = {section: replace(getattr(self, section), **entries) for section, entries in records.items()}
         made = {section: instances.changed(section, getattr(self, section), entries) for section, entries in placed.items()}
-        return replace(self, parameters=MappingProxyType(parameters), **changed, **made)
+        return self._with_sections({"parameters": MappingProxyType(parameters), **changed, **made})
 
     def without(self, path: str) -> Scene:
         """This scene less the instance ``things.moon``.
@@ -112,7 +116,7 @@ class Scene:
             SceneError: there is no such instance.
         """
         place = _instance(path)
-        return replace(self, **{place.section: instances.without(place, getattr(self, place.section))})
+        return self._with_sections({place.section: instances.without(place, getattr(self, place.section))})
 
     def renamed(self, path: str, name: str) -> Scene:
         """This scene with the instance ``things.moon`` called `name`.
@@ -121,7 +125,11 @@ class Scene:
             SceneError: there is no such instance, or the name is taken or no name.
         """
         place = _instance(path)
-        return replace(self, **{place.section: instances.renamed(place, getattr(self, place.section), name)})
+        return self._with_sections({place.section: instances.renamed(place, getattr(self, place.section), name)})
+
+    def _with_sections(self, changed: Mapping[str, Any]) -> Scene:
+        """This scene with other sections, by name."""
+        return replace(self, **changed)
 
     def disk_layers(self) -> tuple[str, ...]:
         """The keys of the disk's layers that are switched on."""
@@ -189,6 +197,10 @@ def _field(key: str) -> Field:
     known = fields()
     if key in known:
         return known[key]
-    near = nearest_key(key, known)
+    raise _unknown(key)
+
+
+def _unknown(key: str) -> SceneError:
+    near = nearest_key(key, fields())
     hint = f"; did you mean {near}?" if near else ""
-    raise SceneError(key, f"no such key{hint}")
+    return SceneError(key, f"no such key{hint}")

@@ -46,7 +46,7 @@ class Field:
         kind: ``float``, ``int``, ``switch``, ``choice``, ``text``, ``file`` (a path; whether the file is there is seen when it is used) or
             ``list`` (a tuple in a scene: of values, or of records).
         default: the value when nothing is said.
-        low, high: closed range of a number, in `unit`, of a text's length in characters, or of a list's in entries; None for the others.
+        low, high: closed range of a number, in `unit`, of a text's length in characters, or of a list's in entries; infinite for the others.
         unit: unit shown to people; empty for dimensionless values.
         help: what the value means physically.
         options: the allowed words of a choice.
@@ -60,8 +60,8 @@ class Field:
     key: str
     kind: Kind
     default: Value
-    low: float | None = None
-    high: float | None = None
+    low: float = -math.inf
+    high: float = math.inf
     unit: str = ""
     help: str = ""
     options: tuple[str, ...] = ()
@@ -197,6 +197,17 @@ def describe(value: Any) -> str:
     if isinstance(value, int) and abs(value) >= WHOLE_NUMBER_LIMIT:
         return "a whole number of more than 64 bits"
     return reprlib.repr(value) if value is None or isinstance(value, (str, int, float)) else str(value)
+
+
+def number_of(value: Value) -> float:
+    """A scene's `value` whose field takes numbers, or is a switch, as a number.
+
+    Raises:
+        TypeError: it is something else.
+    """
+    if not isinstance(value, (int, float)):
+        raise TypeError(f"got {describe(value)}; allowed is the value of a field that takes numbers")
+    return value
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

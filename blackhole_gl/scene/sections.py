@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from dataclasses import fields as record_fields
 from types import MappingProxyType
+from typing import Any
 
 
 def number(default: float | int, low: float, high: float, unit: str = "", help: str = "", *, physical: float | None = None, allow_infinity: bool = False):
@@ -162,7 +163,7 @@ SECTIONS: Mapping[str, type] = MappingProxyType(
 """The sections by name, in the order of panels and files."""
 
 
-def declared() -> dict[str, Mapping[str, object]]:
+def declared() -> dict[str, Mapping[str, Any]]:
     """What each field says of itself, by dotted key: the arguments of `schema.Field`, but that a choice's ``options`` may name a catalogue slot."""
     return {
         f"{section}.{item.name}": {**item.metadata, "default": item.default} for section, kind in SECTIONS.items() for item in record_fields(kind)

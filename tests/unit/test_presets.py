@@ -287,7 +287,7 @@ def test_a_full_preset_says_its_units():
 
 
 def test_a_switch_with_parameters_below_it_is_their_tables_entry():
-    key = next(key for key, item in fields().items() if key.rsplit(".", 1)[0] in fields() and item.low not in (None, item.default))
+    key = next(key for key, item in fields().items() if key.rsplit(".", 1)[0] in fields() and -math.inf < item.low != item.default)
     section, layer, name = key.split(".")
     scene = Scene().with_values({f"{section}.{layer}": True, key: fields()[key].low})
     assert presets.parse(f"[{section}.{layer}]\nenabled = true\n{name} = {fields()[key].low}").values == {f"{section}.{layer}": True, key: fields()[key].low}

@@ -149,8 +149,10 @@ def read(name_or_path: str | Path) -> Preset:
     Raises:
         PresetError: not found, not readable, not TOML, or an entry that a scene does not have or cannot hold.
     """
-    is_path = isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png"))
-    path, group = (Path(name_or_path), "") if is_path else _find(name_or_path)
+    if isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png")):
+        path, group = Path(name_or_path), ""
+    else:
+        path, group = _find(name_or_path)
     source = str(path)
     try:
         text = png.read_scene_text(path) if path.suffix.lower() == ".png" else path.read_bytes().decode("utf-8-sig")

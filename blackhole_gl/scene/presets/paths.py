@@ -26,9 +26,9 @@ def relative(item: Field, value: Value, folder: Path) -> Value:
 
 def _mapped(item: Field, value: Value, change: Callable[[str], str]) -> Value:
     """`value` with `change` made to every path in it; an empty one stays."""
-    if item.kind == "file":
+    if item.kind == "file" and isinstance(value, str):
         return change(value) if value else value
-    if item.kind != "list":
+    if not isinstance(value, tuple):
         return value
     if item.element is not None:
         return tuple(_mapped(item.element, entry, change) for entry in value)

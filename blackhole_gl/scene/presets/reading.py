@@ -133,11 +133,11 @@ class _Reader:
 
     def _walk(self, key: str, value: Any) -> None:
         item = fields().get(key)
-        is_switch = item is not None and item.kind == "switch"
-        if isinstance(value, dict) and (key in tables() or is_switch):
+        switch = item if item is not None and item.kind == "switch" else None
+        if isinstance(value, dict) and (key in tables() or switch is not None):
             for name, entry in value.items():
-                if is_switch and name == SWITCH:
-                    self._put(item, entry)
+                if switch is not None and name == SWITCH:
+                    self._put(switch, entry)
                 else:
                     self._walk(f"{key}.{_quoted(name)}", entry)
         elif item is not None:
@@ -200,7 +200,7 @@ def unknown_key(key: str) -> str:
 @cache
 def tables() -> tuple[str, ...]:
     """Dotted names of the tables that all scenes have, sections before what lies in them."""
-    tables = {}
+    tables: dict[str, None] = {}  # a set in order
     for key in fields():
         parts = key.split(".")
         for depth in range(1, len(parts)):

@@ -59,9 +59,9 @@ def _version() -> str:
 
 def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Path | None) -> str:
     document = tomlkit.document()
-    for name, value in about.items():
-        if value != "":
-            document.add(name, value)
+    for name, said in about.items():
+        if said != "":
+            document.add(name, said)
     for table, entries in _entries_by_table(scene, full).items():
         place = document
         for part in table.split("."):
@@ -78,7 +78,7 @@ def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Pa
 
 
 def _written(item: Field, value: Value) -> tomlkit.items.Item:
-    if item.kind != "list":
+    if not isinstance(value, tuple):
         return tomlkit.item(value)
     if not item.columns or not value:
         return tomlkit.item(list(value))

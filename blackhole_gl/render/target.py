@@ -1,0 +1,42 @@
+"""A framebuffer together with the textures that it draws into, which are made and given back with it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import moderngl
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """What can be drawn into and read afterwards.
+
+    Attributes:
+        frame: the framebuffer.
+        textures: its colours, in the order of the shader's outputs.
+    """
+
+    frame: moderngl.Framebuffer
+    textures: tuple[moderngl.Texture, ...]
+
+    @classmethod
+    def of(cls, ctx: moderngl.Context, textures: Sequence[moderngl.Texture], depth: moderngl.Texture | None = None) -> Target:
+        """Draws into `textures`; `depth`, if there is one, stays its owner's."""
+        return cls(ctx.framebuffer(textures, depth), tuple(textures))
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The first texture."""
+        return self.textures[0]
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) in pixels."""
+        return self.frame.size
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for texture in self.textures:
+            texture.release()
+        self.frame.release()
