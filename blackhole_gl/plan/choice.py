@@ -152,11 +152,8 @@ def refinement(scene: Scene) -> Refinement | None:
     """What to expect of refined hit maps in `scene`, which leaves nothing open; None where its method was not measured with them."""
     if _not_measured(scene):
         return None
-    near, method = _nearest_scenes(scene), _stated_method(scene)
-    rows: dict[tuple[str, bool], Measured] = {}
-    for row in _measured_in(near):
-        if row.stated == method:
-            rows[row.scene, bool(row.refined)] = row
+    near = _nearest_scenes(scene)
+    rows = _rows_by_method(near).get(_stated_method(scene), {})
     if len(rows) < 2 * len(near):
         return None
     nearest = rows[near[0], True]
@@ -167,6 +164,15 @@ def refinement(scene: Scene) -> Refinement | None:
     # of their own grow as 1/√tolerance. They are taken for all of the cost but a flat frame's: rather too much than too little.
     more = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
     return Refinement(error, 1.0 + (nearest.cost_flat_ratio - 1.0) * more, nearest.cost_unrefined)
+
+
+@lru_cache(maxsize=64)
+def _rows_by_method(near: tuple[str, ...]) -> dict[Method, dict[tuple[str, bool], Measured]]:
+    """Method → its rows in the measured scenes `near`, by scene and whether they are refined."""
+    found: dict[Method, dict[tuple[str, bool], Measured]] = {}
+    for row in _measured_in(near):
+        found.setdefault(row.stated, {})[row.scene, bool(row.refined)] = row
+    return found
 
 
 def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> float:
@@ -216,7 +222,7 @@ def measurements() -> tuple[Measured, ...]:
 
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
-    for kept in (_by_scene, _nearest_scenes, _candidates, choose, refinement):
+    for kept in (_by_scene, _nearest_scenes, _candidates, _rows_by_method, choose, refinement):
         kept.cache_clear()
 
 

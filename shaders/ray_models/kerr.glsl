@@ -31,6 +31,8 @@ struct State {
     float twist;
 };
 
+#include "common/radial_mino.glsl"
+
 Orbit ray_orbit(RayStart start) {
     float a = hole_spin;
     float k = dot(start.n_rate, start.n_rate) - a * a * start.n.z * start.n.z;
@@ -85,24 +87,6 @@ float state_difference(Orbit orbit, State a, State b) {
 
 float ray_plain_step(Orbit orbit, State s) {
     return plan_step_angle * orbit.scale;
-}
-
-float ray_longest_step(Orbit orbit, State s) {
-    return orbit.scale;
-}
-
-float ray_radius(State s) {
-    return 0.5 / max(s.w, 1e-6);
-}
-
-// Inside hole_w_stop an inward ray has no turning point left; infinity is w = 0.
-int ray_fate(Orbit orbit, State s) {
-    if (s.w <= 0.0) return ESCAPED;
-    return s.w > hole_w_stop && s.w_rate > 0.0 ? CAPTURED : UNRESOLVED;
-}
-
-float ray_end(Orbit orbit, State a, State b, float h) {
-    return hermite_root(a.w, h * a.w_rate, b.w, h * b.w_rate);
 }
 
 void ray_finish(Orbit orbit, State s, inout Hits hits) {

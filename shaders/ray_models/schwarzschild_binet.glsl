@@ -29,6 +29,8 @@ struct State {
     vec3 aside;
 };
 
+#include "common/radial_mino.glsl"
+
 Orbit ray_orbit(RayStart start) {
     float k = dot(start.n_rate, start.n_rate);
     return Orbit(k, inversesqrt(k + 1.0));
@@ -68,23 +70,6 @@ float ray_plain_step(Orbit orbit, State s) {
     float h = plan_step_angle * orbit.scale;
     float turn = floor(h * s.b * 65536.0 + 0.5) / 65536.0;
     return turn > 1e-3 ? turn / s.b : h;
-}
-
-float ray_longest_step(Orbit orbit, State s) {
-    return orbit.scale;
-}
-
-float ray_radius(State s) {
-    return 0.5 / max(s.w, 1e-6);
-}
-
-int ray_fate(Orbit orbit, State s) {
-    if (s.w <= 0.0) return ESCAPED;
-    return s.w > hole_w_stop && s.w_rate > 0.0 ? CAPTURED : UNRESOLVED;
-}
-
-float ray_end(Orbit orbit, State a, State b, float h) {
-    return hermite_root(a.w, h * a.w_rate, b.w, h * b.w_rate);
 }
 
 void ray_finish(Orbit orbit, State s, inout Hits hits) {

@@ -27,7 +27,7 @@ def test_a_twin_takes_what_it_declares_and_every_parameter_of_its_model(model):
 
 def test_a_twin_knows_of_spin_what_its_model_knows():
     for model, plug_in in catalogue.plug_ins("ray_model").items():
-        assert reference.twin_of(model).spins == plug_in.traits["spins"], model
+        assert reference.twin_of(model).spins == plug_in.traits.spins, model
 
 
 def test_a_function_becomes_a_twin_by_its_decorator_alone(monkeypatch):

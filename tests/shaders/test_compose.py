@@ -59,10 +59,10 @@ def test_reload_takes_up_a_change_and_survives_a_mistake(ctx: moderngl.Context, 
     good = programs.get("trace.frag", INPUTS)
     assert programs.reload() == [] and programs.get("trace.frag", INPUTS).serial == good.serial
 
-    path = copy / "ray_models" / "kerr.glsl"
+    path = copy / "common" / "radial_mino.glsl"
     line = edit(path, "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return ESCAPE;")
     (error,) = programs.reload()
-    assert (error.file, error.line) == ("ray_models/kerr.glsl", line) and "ESCAPE" in error.message
+    assert (error.file, error.line) == ("common/radial_mino.glsl", line) and "ESCAPE" in error.message
     assert programs.get("trace.frag", INPUTS).serial == good.serial, "the last good program goes on"
     assert [str(e) for e in programs.reload()] == [str(error)], "the mistake stands until it is mended"
 
@@ -86,7 +86,7 @@ def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Con
     renderer.hit_map = HitMap(ctx, renderer.programs)
     renderer.render(SCENE, 0.0, (16, 9))
     assert np.any(renderer.hits().fate == 1)
-    edit(copy / "ray_models" / "kerr.glsl", "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return CAPTURED;")
+    edit(copy / "common" / "radial_mino.glsl", "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return CAPTURED;")
     assert renderer.programs.reload() == []
     assert renderer.render(SCENE, 0.0, (16, 9)).traced
     assert np.all(renderer.hits().fate == 2)
