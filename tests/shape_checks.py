@@ -1,5 +1,8 @@
 """Has the shapes in array types (blackhole_gl/shapes.py) checked at every call, in modules where they are the contract: NumPy in, NumPy out.
 
+Not in those whose functions are called thousands of times for a ray, the integrator, its events and the marched systems: it would double the time of every
+test that asks a twin. What goes into a march and comes out of it is checked all the same, by `marching` and `hits`.
+
 To be imported before any of these modules is.
 """
 
@@ -16,7 +19,14 @@ CHECKED = (
     "blackhole_gl.physics.disk_profile",
     "blackhole_gl.physics.observer",
     "blackhole_gl.physics.orbit_table",
-    "blackhole_gl.reference",
+    "blackhole_gl.reference.flat",
+    "blackhole_gl.reference.hits",
+    "blackhole_gl.reference.marching",
+    "blackhole_gl.reference.observers",
+    "blackhole_gl.reference.registry",
+    "blackhole_gl.reference.schemes",
+    "blackhole_gl.reference.tracing",
+    "blackhole_gl.reference.weak_field",
     "blackhole_gl.render.hit_texels",
 )
 

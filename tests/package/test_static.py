@@ -6,7 +6,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from jaxtyping import TypeCheckError
+
+from blackhole_gl.reference.observers import Place, momenta
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -15,3 +19,9 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_it_finds_nothing(command: tuple[str, ...]) -> None:
     run = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, timeout=280)
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_a_wrong_shape_is_refused_while_tests_run() -> None:
+    """Directions in two components: NumPy would say something of it, but not what is asked for. The shapes in array types are checked (tests/shape_checks.py)."""
+    with pytest.raises(TypeCheckError, match="N 3"):
+        momenta(np.zeros((5, 2)), Place.from_degrees(20.0, 80.0, 0.0), 0.5, "zamo")
