@@ -22,6 +22,7 @@ def test_it_finds_nothing(command: tuple[str, ...]) -> None:
 
 
 def test_a_wrong_shape_is_refused_while_tests_run() -> None:
-    """Directions of two components: the error says what is asked for, as tests/shape_checks.py has array types checked."""
+    """Directions in two components: NumPy would say something of it, but not what is asked for.
+    The shapes in array types are checked (tests/shape_checks.py)."""
     with pytest.raises(TypeCheckError, match="N 3"):
         momenta(np.zeros((5, 2)), Place.from_degrees(20.0, 80.0, 0.0), 0.5, "zamo")
