@@ -20,7 +20,7 @@ _MOUSE = (
     ("Click an orange dot", "Back to physics"),
     ("ESC", "Leave a field"),
 )
-_SIGNS = {"PLUS": "+", "EQUAL": "=", "MINUS": "-", "KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -"}
+_KEYPAD = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -"}
 
 
 def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
@@ -50,7 +50,7 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
 
 
 def _keys_text(chords: tuple[Chord, ...]) -> str:
-    return "   ".join("+".join((*chord.modifiers, _SIGNS.get(chord.key, chord.key))) for chord in chords) or "no key"
+    return "   ".join("+".join((*chord.modifiers, (chord.character or _KEYPAD.get(chord.key, chord.key)).upper())) for chord in chords) or "no key"
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:

@@ -24,7 +24,7 @@ from .live_chart import LiveChart
 from .panel import Panel
 from .picture import Picture
 from .preparation import Preparation
-from .shortcuts import Shortcuts
+from .shortcuts import Layout, Shortcuts
 from .state import WindowState
 from .warm_up import WarmUp
 
@@ -185,7 +185,7 @@ class Window:
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
         self._picture: Picture | None = None
-        self._shortcuts = Shortcuts(self.bindings)
+        self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -376,6 +376,14 @@ def _shader_mistakes(errors: Iterable[Exception]) -> str | None:
     """What is wrong with the shaders on disk: plug-ins of the user's that were left out at the start, and `errors`; None when nothing is."""
     left_out = (f"{mistake}. It is left out until it is mended and the program started again." for mistake in catalogue.mistakes())
     return "\n\n".join([*left_out, *map(str, errors)]) or None
+
+
+def _key_name(key: int) -> str | None:
+    return glfw.get_key_name(key, 0)
+
+
+def _is_key_down(key: int) -> bool:
+    return glfw.get_key(_glfw_window(), key) == glfw.PRESS
 
 
 def _glfw_window() -> Any:

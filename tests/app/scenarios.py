@@ -74,7 +74,7 @@ def arrows_and_reset(hands: Hands) -> None:
     before = hands.scene.camera
     hands.context.key_hold(Key.left_arrow, 0.3)
     hands.context.key_hold(Key.up_arrow, 0.2)
-    hands.context.key_hold(Key.equal, 0.2)
+    hands.hold(Key.right_bracket, 0.2, character="+")  # where a German keyboard has it
     hands.settle()
     moved = hands.scene.camera
     assert moved.azimuth_deg < before.azimuth_deg and moved.inclination_deg < before.inclination_deg and moved.distance < before.distance

@@ -47,6 +47,18 @@ def test_mistakes_name_file_and_entry(tmp_path, text, words):
         assert word in str(error.value)
 
 
+@pytest.mark.parametrize("text, chord", [("+", Chord("PLUS")), ("ctrl++", Chord("PLUS", ("CTRL",))), ("#", Chord("#")), ("Ö", Chord("ö")), ("s", Chord("S"))])
+def test_any_character_can_be_bound(text, chord):
+    assert parse_chord(text) == chord == parse_chord(str(chord))
+    assert len(chord.character) == 1
+
+
+@pytest.mark.parametrize("text", ["CTRL+", "++S", "ß#"])
+def test_what_is_no_chord_is_refused(text):
+    with pytest.raises(KeysError):
+        parse_chord(text)
+
+
 def test_every_action_does_something():
     elsewhere = {"save", "copy", "paste"}  # they need the clipboard or a file; see window.py
     assert {action.name for action in ACTIONS if not action.held} == set(COMMANDS) | elsewhere
