@@ -13,14 +13,16 @@ from .state import WindowState
 
 _MOUSE = (
     ("Drag", "Orbit"),
-    ("Wheel", "Move closer or away"),
+    ("Wheel, two fingers", "Move closer or away"),
+    ("Middle drag", "Move closer (up) or away (down)"),
+    ("Right drag", "Look around"),
     ("Double-click a name", "Reset the value"),
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),
     ("Click an orange dot", "Back to physics"),
     ("ESC", "Leave a field"),
 )
-_KEYPAD = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -"}
+_SPELT = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -", "PAGE_UP": "PAGE UP", "PAGE_DOWN": "PAGE DOWN"}
 
 
 def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
@@ -50,7 +52,7 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
 
 
 def _keys_text(chords: tuple[Chord, ...]) -> str:
-    return "   ".join("+".join((*chord.modifiers, (chord.character or _KEYPAD.get(chord.key, chord.key)).upper())) for chord in chords) or "no key"
+    return "   ".join("+".join((*chord.modifiers, (chord.character or _SPELT.get(chord.key, chord.key)).upper())) for chord in chords) or "no key"
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:

@@ -21,6 +21,7 @@ from . import commands, help_window, keys, overlay, preset_switch, scene_files, 
 from .area import Area
 from .full_screen import FullScreen
 from .live_chart import LiveChart
+from .mouse import Mouse
 from .panel import Panel
 from .picture import Picture
 from .preparation import Preparation
@@ -186,6 +187,7 @@ class Window:
         self.bindings = self._read_keys()
         self._picture: Picture | None = None
         self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
+        self._mouse = Mouse()
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -245,7 +247,9 @@ class Window:
         pressed, held = self._shortcuts.poll()
         for name in pressed:
             self.do(name)
-        commands.advance(state, commands.Hand(*self._mouse(view), held), dt)
+        hand = commands.Hand(*self._mouse.poll(view.height), held)
+        state.dragging = self._mouse.drags
+        commands.advance(state, hand, dt)
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
         em = hello_imgui.em_size()
@@ -301,21 +305,6 @@ class Window:
 
     def _is_minimised(self) -> bool:
         return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
-
-    def _mouse(self, view: _View) -> tuple[tuple[float, float], float]:
-        """The drag over the picture, in heights of the picture, and the wheel's notches."""
-        io, state = imgui.get_io(), self.state
-        over_picture = not io.want_capture_mouse
-        begins = imgui.is_mouse_clicked(imgui.MouseButton_.left) and over_picture
-        if begins:
-            state.dragging = True
-        if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            state.dragging = False
-        wheel = io.mouse_wheel if over_picture else 0.0
-        # In the frame of the click the mouse may have come from anywhere.
-        if not state.dragging or begins or view.height < 1.0:
-            return (0.0, 0.0), wheel
-        return (io.mouse_delta.x / view.height, io.mouse_delta.y / view.height), wheel
 
     def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state

@@ -41,6 +41,28 @@ def orbit_by_drag(hands: Hands) -> None:
     assert after.distance == before.distance
 
 
+def look_by_right_drag_and_zoom_by_middle_drag(hands: Hands) -> None:
+    before = hands.scene.camera
+    height = hands.window.view().height
+    for button, way in ((1, (60, 30)), (2, (0, -60))):
+        x, y = hands.to_picture()
+        hands.context.mouse_down(button)
+        hands.context.mouse_move_to_pos((x + way[0], y + way[1]))
+        hands.context.mouse_up(button)
+    hands.settle()
+    after = hands.scene.camera
+    # Two pixels' worth: the engine's mouse moves in whole ones.
+    assert abs(after.yaw_deg + before.fov_deg * 60 / height) < 2.0 * before.fov_deg / height, after
+    assert abs(after.pitch_deg - before.fov_deg * 30 / height) < 2.0 * before.fov_deg / height, after
+    assert after.azimuth_deg == before.azimuth_deg and after.distance < before.distance
+    hands.context.key_hold(Key.page_down, 0.3)
+    hands.settle()
+    assert hands.scene.camera.distance > after.distance
+    hands.press(Key.r)
+    hands.settle()
+    assert hands.scene.camera == before
+
+
 def drag_on_the_panel_does_not_orbit(hands: Hands) -> None:
     before = hands.scene.camera
     hands.context.item_drag_with_delta(hands.item("##hole.spin"), (-40.0, 0.0))

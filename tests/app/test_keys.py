@@ -18,11 +18,11 @@ def test_template_says_the_defaults(tmp_path):
 
 def test_named_actions_change_and_others_stay(tmp_path):
     file = tmp_path / "keys.toml"
-    file.write_text('disk = "ctrl+shift+d"\nspin = []\nzoom_in = ["PLUS", "PAGE_UP"]\n')
+    file.write_text('disk = "ctrl+shift+d"\nspin = []\nzoom_in = ["PLUS", "HOME"]\n')
     bindings = load_bindings(file)
     assert bindings["disk"] == (Chord("D", ("CTRL", "SHIFT")),)
     assert bindings["spin"] == ()
-    assert bindings["zoom_in"] == (Chord("PLUS"), Chord("PAGE_UP"))
+    assert bindings["zoom_in"] == (Chord("PLUS"), Chord("HOME"))
     assert bindings["pause"] == default_bindings()["pause"]
 
 
