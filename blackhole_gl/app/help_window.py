@@ -20,13 +20,13 @@ _MOUSE = (
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),
     ("Click an orange dot", "Back to physics"),
-    ("ESC", "Leave a field"),
+    ("ESC", "Leave a field, a list, this window, full screen"),
 )
 _SPELT = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -", "PAGE_UP": "PAGE UP", "PAGE_DOWN": "PAGE DOWN"}
 
 
 def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
-    """Draws the window when it is wanted; its close button and ESC put it away.
+    """Draws the window when it is wanted; its close button puts it away.
 
     Args:
         key_file: where the user's own keys are read from.
@@ -46,8 +46,6 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
         _table("mouse", _MOUSE)
         imgui.separator()
         _file(state, key_file)
-        if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape):
-            state.show_help = False
     imgui.end()
 
 

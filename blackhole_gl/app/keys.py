@@ -1,7 +1,7 @@
 """Which key does what, and the text file that changes it.
 
 ``keys.toml`` in the user's configuration folder holds lines such as ``disk = "SPACE"`` or ``zoom_in = ["PLUS", "CTRL+UP"]``;
-actions it does not name keep their keys. ESC is not for the taking: it leaves a field.
+actions it does not name keep their keys. ESC is not for the taking: it leaves a field, a list, full screen.
 
 A letter, a digit or a sign is the *character* of that name, wherever the keyboard's layout has it; any other character can be written as itself,
 ``"#"``. With a modifier held a key counts by the character that it gives alone. The other names are keys.
@@ -77,6 +77,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("save", ("CTRL+S",), "Save the scene"),
     Action("copy", ("CTRL+SHIFT+C",), "Copy the scene as TOML"),
     Action("paste", ("CTRL+SHIFT+V",), "Take the scene from the clipboard"),
+    Action("quit", ("CTRL+Q",), "Close the viewer"),
 )
 
 _SIGNS = {

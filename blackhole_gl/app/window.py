@@ -247,6 +247,7 @@ class Window:
         pressed, held = self._shortcuts.poll()
         for name in pressed:
             self.do(name)
+        self._escape()
         hand = commands.Hand(*self._mouse.poll(view.height), held)
         state.dragging = self._mouse.drags
         commands.advance(state, hand, dt)
@@ -286,8 +287,22 @@ class Window:
             imgui.set_clipboard_text(scene_files.text_of(state))
         elif action == "paste":
             scene_files.take(state, imgui.get_clipboard_text())
+        elif action == "quit":
+            hello_imgui.get_runner_params().app_shall_exit = True
         else:
             commands.COMMANDS[action](state)
+
+    def _escape(self) -> None:
+        """ESC puts away the uppermost thing that can be put away; a field that is typed in leaves by itself."""
+        state = self.state
+        if not imgui.is_key_pressed(imgui.Key.escape, False) or imgui.get_io().want_text_input:
+            return
+        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value):
+            imgui.internal.close_popups_except_modals()
+        elif state.show_help:
+            state.show_help = False
+        else:
+            state.full_screen = False
 
     def view(self) -> _View:
         """Where the picture goes now."""

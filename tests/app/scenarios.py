@@ -20,6 +20,7 @@ from PIL import Image
 from blackhole_gl import plan
 from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
+from blackhole_gl.app.window import PANEL
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -151,6 +152,22 @@ def help_window(hands: Hands) -> None:
     assert hands.state.show_help
     hands.press(Key.f1)
     assert not hands.state.show_help
+
+
+def escape_closes_a_picker_then_help_then_full_screen(hands: Hands) -> None:
+    state = hands.state
+    state.full_screen = state.show_help = True
+    hands.context.yield_(4)
+    hands.context.scroll_to_top(f"//{PANEL}")
+    hands.context.item_click(f"//{PANEL}/pickers/##Look preset")
+    hands.context.yield_(2)
+    found = []
+    for _ in range(3):
+        hands.context.key_press(Key.escape)
+        hands.context.yield_(2)
+        found.append((imgui.internal.find_window_by_name("##Combo_00").active, state.show_help, state.full_screen))
+    assert found == [(False, True, True), (False, False, True), (False, False, False)], found
+    hands.context.yield_(4)
 
 
 def tab_hides_the_panel(hands: Hands) -> None:

@@ -2,7 +2,7 @@
 
     DISPLAY=:77 python tests/app/typed_on_display.py
 
-One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key]. Needs xdotool.
+Leaves by CTRL+Q. One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key]. Needs xdotool.
 """
 
 import json
@@ -25,6 +25,7 @@ from blackhole_gl.scene import presets  # noqa: E402
 
 HELD_S = 0.4
 AFTER_S = 0.2
+WITHOUT_QUIT_S = 5.0  # after which the window is closed another way, and this is said
 _X_NAMES = {
     "SPACE": "space", "TAB": "Tab", "ESC": "Escape", "PAGE_UP": "Prior", "PAGE_DOWN": "Next", "LEFT": "Left", "RIGHT": "Right", "UP": "Up", "DOWN": "Down",
     "PLUS": "plus", "EQUAL": "equal", "MINUS": "minus", "KEYPAD_ADD": "KP_Add", "KEYPAD_SUBTRACT": "KP_Subtract",
@@ -38,8 +39,13 @@ class Recorder:
         self.pressed: list[str] = []
         self.held: list[str] = []
         self.frames = 0
+        self._do = window.Window.do
         window.Window.do = lambda _, action: self.pressed.append(action)
         window.commands.advance = self._advance
+
+    def leave(self) -> None:
+        """From now on the window does what it is told."""
+        window.Window.do = self._do
 
     def _advance(self, state, hand, dt) -> None:
         self.frames += 1
@@ -72,6 +78,10 @@ def main() -> None:
                 time.sleep(0.05)
             for chord in dict.fromkeys(chord for chords in default_bindings().values() for chord in chords):
                 found[str(chord)] = strike(chord, record)
+            record.leave()
+            subprocess.run(["xdotool", "key", x_name(default_bindings()["quit"][0])], check=True)
+            time.sleep(WITHOUT_QUIT_S)
+            found["still open"] = True
         finally:
             hello_imgui.get_runner_params().app_shall_exit = True
 
