@@ -11,6 +11,7 @@ from .camera_control import Motion, limited, pose_of
 from .state import WindowState
 
 DRAG_DEG = 180.0  # a drag over the picture's height
+DRAG_REACH = 3.0  # a drag over the picture's height, in logarithms of the distance from the horizon
 WHEEL_REACH = 0.15  # a notch, in logarithms of the distance from the horizon
 HOLD_DEG = 60.0  # a held key, a second
 HOLD_REACH = 1.2
@@ -32,12 +33,14 @@ class Hand:
     """What the user's hands did in one frame.
 
     Attributes:
-        drag: pixels right and down, over the picture's height in pixels.
+        drag, look, pull: ways right and down, over the picture's height, of the drags that orbit, look around and zoom.
         wheel: notches, positive away from the user.
         held: names of the held actions.
     """
 
     drag: tuple[float, float] = (0.0, 0.0)
+    look: tuple[float, float] = (0.0, 0.0)
+    pull: tuple[float, float] = (0.0, 0.0)
     wheel: float = 0.0
     held: Collection[str] = ()
 
@@ -46,7 +49,7 @@ def advance(state: WindowState, hand: Hand, dt: float) -> None:
     """Lets `dt` seconds pass: the camera follows the hand, scene time runs unless paused, notices leave."""
     right, down = hand.drag
     # The near side of what is looked at follows the hand, so the camera goes the other way.
-    azimuth, inclination, reach = -DRAG_DEG * right, -DRAG_DEG * down, -WHEEL_REACH * hand.wheel
+    azimuth, inclination, reach = -DRAG_DEG * right, -DRAG_DEG * down, DRAG_REACH * hand.pull[1] - WHEEL_REACH * hand.wheel
     for name in hand.held:
         turn, tilt, go = _HELD[name]
         azimuth, inclination, reach = azimuth + turn * dt, inclination + tilt * dt, reach + go * dt
@@ -54,11 +57,28 @@ def advance(state: WindowState, hand: Hand, dt: float) -> None:
     if azimuth or inclination or reach:
         target = limited(target.moved(azimuth, inclination, reach), state.scene)
     state.move_camera(state.motion.advanced(target, dt))
+    if any(hand.look):
+        look(state, *hand.look)
     if state.is_playing:
         state.time += dt * state.scene.playback.rate
     state.clock += dt
     if state.notice and state.notice.until is not None and state.clock > state.notice.until:
         state.notice = None
+
+
+def look(state: WindowState, right: float, down: float) -> None:
+    """Turns the view so that what is in its middle follows the hand, `right` and `down` over the picture's height."""
+    camera = state.scene.camera
+    if math.isinf(camera.distance):
+        state.say("A camera infinitely far away has parallel rays and cannot look aside.")
+        return
+    roll = math.radians(camera.roll_deg)
+    across, along = right * math.cos(roll) - down * math.sin(roll), right * math.sin(roll) + down * math.cos(roll)
+    pitch = fields()["camera.pitch_deg"]
+    state.change({
+        "camera.yaw_deg": math.remainder(camera.yaw_deg - camera.fov_deg * across, 360.0),
+        "camera.pitch_deg": min(max(camera.pitch_deg + camera.fov_deg * along, pitch.low), pitch.high),
+    })  # fmt: skip
 
 
 def toggle_disk(state: WindowState) -> None:

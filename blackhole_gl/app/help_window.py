@@ -13,18 +13,20 @@ from .state import WindowState
 
 _MOUSE = (
     ("Drag", "Orbit"),
-    ("Wheel", "Move closer or away"),
+    ("Wheel, two fingers", "Move closer or away"),
+    ("Middle drag", "Move closer (up) or away (down)"),
+    ("Right drag", "Look around"),
     ("Double-click a name", "Reset the value"),
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),
     ("Click an orange dot", "Back to physics"),
-    ("ESC", "Leave a field"),
+    ("ESC", "Leave a field, a list, this window, full screen"),
 )
-_SIGNS = {"PLUS": "+", "EQUAL": "=", "MINUS": "-", "KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -"}
+_SPELT = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -", "PAGE_UP": "PAGE UP", "PAGE_DOWN": "PAGE DOWN"}
 
 
 def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
-    """Draws the window when it is wanted; its close button and ESC put it away.
+    """Draws the window when it is wanted; its close button puts it away.
 
     Args:
         key_file: where the user's own keys are read from.
@@ -44,13 +46,11 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
         _table("mouse", _MOUSE)
         imgui.separator()
         _file(state, key_file)
-        if imgui.is_window_focused() and imgui.is_key_pressed(imgui.Key.escape):
-            state.show_help = False
     imgui.end()
 
 
 def _keys_text(chords: tuple[Chord, ...]) -> str:
-    return "   ".join("+".join((*chord.modifiers, _SIGNS.get(chord.key, chord.key))) for chord in chords) or "no key"
+    return "   ".join("+".join((*chord.modifiers, (chord.character or _SPELT.get(chord.key, chord.key)).upper())) for chord in chords) or "no key"
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:

@@ -1,7 +1,10 @@
 """Which key does what, and the text file that changes it.
 
 ``keys.toml`` in the user's configuration folder holds lines such as ``disk = "SPACE"`` or ``zoom_in = ["PLUS", "CTRL+UP"]``;
-actions it does not name keep their keys. ESC is not for the taking: it leaves a field.
+actions it does not name keep their keys. ESC is not for the taking: it leaves a field, a list, full screen.
+
+A letter, a digit or a sign is the *character* of that name, wherever the keyboard's layout has it; any other character can be written as itself,
+``"#"``. With a modifier held a key counts by the character that it gives alone. The other names are keys.
 """
 
 from __future__ import annotations
@@ -22,10 +25,15 @@ class KeysError(ValueError):
 
 @dataclass(frozen=True)
 class Chord:
-    """A key with the modifiers held, both by the names used in the file."""
+    """A key with the modifiers held, both by the names used in the file; `key` may be a character too."""
 
     key: str
     modifiers: tuple[str, ...] = ()
+
+    @property
+    def character(self) -> str | None:
+        """The character asked for, in lower case; None for a key with a name."""
+        return _SIGNS.get(self.key) or (self.key.lower() if len(self.key) == 1 else None)
 
     def __str__(self) -> str:
         return "+".join((*self.modifiers, self.key))
@@ -56,8 +64,8 @@ ACTIONS: tuple[Action, ...] = (
     Action("orbit_right", ("RIGHT",), "Orbit to the right", held=True),
     Action("orbit_up", ("UP",), "Orbit upwards", held=True),
     Action("orbit_down", ("DOWN",), "Orbit downwards", held=True),
-    Action("zoom_in", ("PLUS", "EQUAL", "KEYPAD_ADD"), "Move closer", held=True),
-    Action("zoom_out", ("MINUS", "KEYPAD_SUBTRACT"), "Move away", held=True),
+    Action("zoom_in", ("PLUS", "EQUAL", "KEYPAD_ADD", "PAGE_UP"), "Move closer", held=True),
+    Action("zoom_out", ("MINUS", "KEYPAD_SUBTRACT", "PAGE_DOWN"), "Move away", held=True),
     Action("reset", ("R",), "Camera back to where the scene has it"),
     Action("help", ("F1", "H"), "This window"),
     Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),
@@ -69,10 +77,14 @@ ACTIONS: tuple[Action, ...] = (
     Action("save", ("CTRL+S",), "Save the scene"),
     Action("copy", ("CTRL+SHIFT+C",), "Copy the scene as TOML"),
     Action("paste", ("CTRL+SHIFT+V",), "Take the scene from the clipboard"),
+    Action("quit", ("CTRL+Q",), "Close the viewer"),
 )
 
+_SIGNS = {
+    "PLUS": "+", "MINUS": "-", "EQUAL": "=", "COMMA": ",", "PERIOD": ".", "SLASH": "/", "SEMICOLON": ";", "APOSTROPHE": "'", "BACKSLASH": "\\",
+    "LEFT_BRACKET": "[", "RIGHT_BRACKET": "]", "GRAVE_ACCENT": "`",
+}  # fmt: skip
 _NAMED = ("SPACE", "TAB", "ENTER", "BACKSPACE", "INSERT", "DELETE", "HOME", "END", "PAGE_UP", "PAGE_DOWN", "LEFT", "RIGHT", "UP", "DOWN")
-_SIGNS = ("PLUS", "MINUS", "EQUAL", "COMMA", "PERIOD", "SLASH", "SEMICOLON", "APOSTROPHE", "BACKSLASH", "LEFT_BRACKET", "RIGHT_BRACKET", "GRAVE_ACCENT")
 _KEYPAD = ("KEYPAD_ADD", "KEYPAD_SUBTRACT", "KEYPAD_MULTIPLY", "KEYPAD_DIVIDE", "KEYPAD_ENTER", *(f"KEYPAD_{n}" for n in range(10)))
 KEY_NAMES = (*"ABCDEFGHIJKLMNOPQRSTUVWXYZ", *"0123456789", *(f"F{n}" for n in range(1, 13)), *_NAMED, *_SIGNS, *_KEYPAD)
 
@@ -80,18 +92,28 @@ Bindings = Mapping[str, tuple[Chord, ...]]
 
 
 def parse_chord(text: str) -> Chord:
-    """The chord that `text` says, e.g. ``"CTRL+S"``; case does not matter.
+    """The chord that `text` says, e.g. ``"CTRL+S"`` or ``"CTRL+#"``; case does not matter.
 
     Raises:
         KeysError: unknown key or modifier.
     """
-    *modifiers, key = text.upper().replace(" ", "").split("+")
+    said = text.replace(" ", "")
+    if said == "+" or said.endswith("++"):
+        said = said[:-1] + "PLUS"
+    *modifiers, key = said.split("+")
+    modifiers = [word.upper() for word in modifiers]
     for word in modifiers:
         if word not in MODIFIERS:
             raise KeysError(f"{text!r}: no such modifier {word!r}; allowed are {', '.join(MODIFIERS)}")
-    if key not in KEY_NAMES:
-        raise KeysError(f"{text!r}: no such key {key!r}{_nearest(key, KEY_NAMES) or '; use names such as SPACE, F5, A, PLUS, KEYPAD_ADD'}")
+    name = _names_of_signs().get(key, key.upper())
+    if name not in KEY_NAMES and not (len(key) == 1 and key.isprintable()):
+        raise KeysError(f"{text!r}: no such key {name!r}{_nearest(name, KEY_NAMES) or '; use names such as SPACE, F5, A, PLUS, KEYPAD_ADD, or a character'}")
+    key = name if name in KEY_NAMES else key.lower()
     return Chord(key, tuple(word for word in MODIFIERS if word in modifiers))
+
+
+def _names_of_signs() -> Mapping[str, str]:
+    return {sign: name for name, sign in _SIGNS.items()}
 
 
 def default_bindings() -> Bindings:

@@ -21,10 +21,11 @@ from . import commands, help_window, keys, overlay, preset_switch, scene_files, 
 from .area import Area
 from .full_screen import FullScreen
 from .live_chart import LiveChart
+from .mouse import Mouse
 from .panel import Panel
 from .picture import Picture
 from .preparation import Preparation
-from .shortcuts import Shortcuts
+from .shortcuts import Layout, Shortcuts
 from .state import WindowState
 from .warm_up import WarmUp
 
@@ -185,7 +186,8 @@ class Window:
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
         self._picture: Picture | None = None
-        self._shortcuts = Shortcuts(self.bindings)
+        self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
+        self._mouse = Mouse()
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -245,7 +247,10 @@ class Window:
         pressed, held = self._shortcuts.poll()
         for name in pressed:
             self.do(name)
-        commands.advance(state, commands.Hand(*self._mouse(view), held), dt)
+        self._escape()
+        hand = commands.Hand(*self._mouse.poll(view.height), held)
+        state.dragging = self._mouse.drags
+        commands.advance(state, hand, dt)
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
         em = hello_imgui.em_size()
@@ -282,8 +287,22 @@ class Window:
             imgui.set_clipboard_text(scene_files.text_of(state))
         elif action == "paste":
             scene_files.take(state, imgui.get_clipboard_text())
+        elif action == "quit":
+            hello_imgui.get_runner_params().app_shall_exit = True
         else:
             commands.COMMANDS[action](state)
+
+    def _escape(self) -> None:
+        """ESC puts away the uppermost thing that can be put away; a field that is typed in leaves by itself."""
+        state = self.state
+        if not imgui.is_key_pressed(imgui.Key.escape, False) or imgui.get_io().want_text_input:
+            return
+        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value):
+            imgui.internal.close_popups_except_modals()
+        elif state.show_help:
+            state.show_help = False
+        else:
+            state.full_screen = False
 
     def view(self) -> _View:
         """Where the picture goes now."""
@@ -301,21 +320,6 @@ class Window:
 
     def _is_minimised(self) -> bool:
         return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
-
-    def _mouse(self, view: _View) -> tuple[tuple[float, float], float]:
-        """The drag over the picture, in heights of the picture, and the wheel's notches."""
-        io, state = imgui.get_io(), self.state
-        over_picture = not io.want_capture_mouse
-        begins = imgui.is_mouse_clicked(imgui.MouseButton_.left) and over_picture
-        if begins:
-            state.dragging = True
-        if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            state.dragging = False
-        wheel = io.mouse_wheel if over_picture else 0.0
-        # In the frame of the click the mouse may have come from anywhere.
-        if not state.dragging or begins or view.height < 1.0:
-            return (0.0, 0.0), wheel
-        return (io.mouse_delta.x / view.height, io.mouse_delta.y / view.height), wheel
 
     def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state
@@ -376,6 +380,14 @@ def _shader_mistakes(errors: Iterable[Exception]) -> str | None:
     """What is wrong with the shaders on disk: plug-ins of the user's that were left out at the start, and `errors`; None when nothing is."""
     left_out = (f"{mistake}. It is left out until it is mended and the program started again." for mistake in catalogue.mistakes())
     return "\n\n".join([*left_out, *map(str, errors)]) or None
+
+
+def _key_name(key: int) -> str | None:
+    return glfw.get_key_name(key, 0)
+
+
+def _is_key_down(key: int) -> bool:
+    return glfw.get_key(_glfw_window(), key) == glfw.PRESS
 
 
 def _glfw_window() -> Any:

@@ -6,10 +6,12 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from imgui_bundle import hello_imgui
+from imgui_bundle import hello_imgui, imgui
 
 from blackhole_gl.app.window import PANEL, Window
 from blackhole_gl.scene import Scene
+
+KEYS = frozenset(int(key) for key in imgui.Key)
 
 
 class Hands:
@@ -43,8 +45,18 @@ class Hands:
         return centre
 
     def press(self, chord: int) -> None:
-        self.context.key_press(chord)
+        """Presses a key; a letter's types it too, as a keyboard does."""
+        self.hold(chord, 0.0)
         self.context.yield_(2)
+
+    def hold(self, chord: int, seconds: float, character: str | None = None) -> None:
+        """Holds a key which gives `character`, a letter its own, for so long."""
+        name = imgui.Key(chord).name if chord in KEYS else ""
+        self.context.key_down(chord)
+        self.context.key_chars(character or (name if len(name) == 1 else ""))
+        if seconds > 0.0:
+            self.context.sleep_no_skip(seconds, 1.0 / 60.0)
+        self.context.key_up(chord)
 
     def item(self, name: str) -> str:
         """The path of the panel's item `name`, wherever in the panel it lies."""

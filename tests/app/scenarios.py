@@ -20,6 +20,7 @@ from PIL import Image
 from blackhole_gl import plan
 from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
+from blackhole_gl.app.window import PANEL
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -39,6 +40,28 @@ def orbit_by_drag(hands: Hands) -> None:
     assert abs((before.azimuth_deg - after.azimuth_deg) - 180.0 * 120 / height) < 2.0, after
     assert abs((before.inclination_deg - after.inclination_deg) - 180.0 * 60 / height) < 2.0, after
     assert after.distance == before.distance
+
+
+def look_by_right_drag_and_zoom_by_middle_drag(hands: Hands) -> None:
+    before = hands.scene.camera
+    height = hands.window.view().height
+    for button, way in ((1, (60, 30)), (2, (0, -60))):
+        x, y = hands.to_picture()
+        hands.context.mouse_down(button)
+        hands.context.mouse_move_to_pos((x + way[0], y + way[1]))
+        hands.context.mouse_up(button)
+    hands.settle()
+    after = hands.scene.camera
+    # Two pixels' worth: the engine's mouse moves in whole ones.
+    assert abs(after.yaw_deg + before.fov_deg * 60 / height) < 2.0 * before.fov_deg / height, after
+    assert abs(after.pitch_deg - before.fov_deg * 30 / height) < 2.0 * before.fov_deg / height, after
+    assert after.azimuth_deg == before.azimuth_deg and after.distance < before.distance
+    hands.context.key_hold(Key.page_down, 0.3)
+    hands.settle()
+    assert hands.scene.camera.distance > after.distance
+    hands.press(Key.r)
+    hands.settle()
+    assert hands.scene.camera == before
 
 
 def drag_on_the_panel_does_not_orbit(hands: Hands) -> None:
@@ -74,7 +97,7 @@ def arrows_and_reset(hands: Hands) -> None:
     before = hands.scene.camera
     hands.context.key_hold(Key.left_arrow, 0.3)
     hands.context.key_hold(Key.up_arrow, 0.2)
-    hands.context.key_hold(Key.equal, 0.2)
+    hands.hold(Key.right_bracket, 0.2, character="+")  # where a German keyboard has it
     hands.settle()
     moved = hands.scene.camera
     assert moved.azimuth_deg < before.azimuth_deg and moved.inclination_deg < before.inclination_deg and moved.distance < before.distance
@@ -129,6 +152,22 @@ def help_window(hands: Hands) -> None:
     assert hands.state.show_help
     hands.press(Key.f1)
     assert not hands.state.show_help
+
+
+def escape_closes_a_picker_then_help_then_full_screen(hands: Hands) -> None:
+    state = hands.state
+    state.full_screen = state.show_help = True
+    hands.context.yield_(4)
+    hands.context.scroll_to_top(f"//{PANEL}")
+    hands.context.item_click(f"//{PANEL}/pickers/##Look preset")
+    hands.context.yield_(2)
+    found = []
+    for _ in range(3):
+        hands.context.key_press(Key.escape)
+        hands.context.yield_(2)
+        found.append((imgui.internal.find_window_by_name("##Combo_00").active, state.show_help, state.full_screen))
+    assert found == [(False, True, True), (False, False, True), (False, False, False)], found
+    hands.context.yield_(4)
 
 
 def tab_hides_the_panel(hands: Hands) -> None:

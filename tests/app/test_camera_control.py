@@ -59,7 +59,7 @@ def test_drag_moves_the_near_side_with_the_hand():
 def test_nothing_leaves_its_range(moves, spin, far):
     state = state_of(hole__spin=spin, camera__distance=math.inf if far else 20.0)
     for right, down, wheel, dt in moves:
-        advance(state, Hand((right, down), wheel), dt)  # with_values refuses what is out of range
+        advance(state, Hand((right, down), (down, right), wheel=wheel), dt)  # with_values refuses what is out of range
     assert 0.0 <= state.scene.camera.inclination_deg <= 180.0
     if not far:
         assert state.scene.camera.distance > horizon_radius(state.scene)
@@ -82,3 +82,16 @@ def test_zoom_is_limited_by_the_field():
 def test_motion_without_time_keeps_the_camera():
     motion = Motion(Pose(0, 90, 1), Pose(0, 90, 1))
     assert motion.advanced(Pose(5, 90, 1), 0.0).current == motion.current
+
+
+def test_what_is_looked_at_follows_the_hand_however_the_camera_is_rolled():
+    state = state_of(camera__roll_deg=90.0, camera__fov_deg=60.0)
+    advance(state, Hand(look=(0.1, 0.0)), 1 / 60)
+    # Rolled clockwise by 90°, the picture's right is down.
+    assert (state.scene.camera.yaw_deg, state.scene.camera.pitch_deg) == (pytest.approx(0.0, abs=1e-9), pytest.approx(6.0))
+
+
+def test_a_far_camera_cannot_look_aside():
+    state = state_of(camera__distance=math.inf)
+    advance(state, Hand(look=(0.1, 0.1)), 1 / 60)
+    assert state.scene.camera.yaw_deg == 0.0 and "parallel" in state.notice.text

@@ -18,11 +18,11 @@ def test_template_says_the_defaults(tmp_path):
 
 def test_named_actions_change_and_others_stay(tmp_path):
     file = tmp_path / "keys.toml"
-    file.write_text('disk = "ctrl+shift+d"\nspin = []\nzoom_in = ["PLUS", "PAGE_UP"]\n')
+    file.write_text('disk = "ctrl+shift+d"\nspin = []\nzoom_in = ["PLUS", "HOME"]\n')
     bindings = load_bindings(file)
     assert bindings["disk"] == (Chord("D", ("CTRL", "SHIFT")),)
     assert bindings["spin"] == ()
-    assert bindings["zoom_in"] == (Chord("PLUS"), Chord("PAGE_UP"))
+    assert bindings["zoom_in"] == (Chord("PLUS"), Chord("HOME"))
     assert bindings["pause"] == default_bindings()["pause"]
 
 
@@ -47,8 +47,20 @@ def test_mistakes_name_file_and_entry(tmp_path, text, words):
         assert word in str(error.value)
 
 
+@pytest.mark.parametrize("text, chord", [("+", Chord("PLUS")), ("ctrl++", Chord("PLUS", ("CTRL",))), ("#", Chord("#")), ("Ö", Chord("ö")), ("s", Chord("S"))])
+def test_any_character_can_be_bound(text, chord):
+    assert parse_chord(text) == chord == parse_chord(str(chord))
+    assert len(chord.character) == 1
+
+
+@pytest.mark.parametrize("text", ["CTRL+", "++S", "ß#"])
+def test_what_is_no_chord_is_refused(text):
+    with pytest.raises(KeysError):
+        parse_chord(text)
+
+
 def test_every_action_does_something():
-    elsewhere = {"save", "copy", "paste"}  # they need the clipboard or a file; see window.py
+    elsewhere = {"save", "copy", "paste", "quit"}  # they need the clipboard, a file or the runner; see window.py
     assert {action.name for action in ACTIONS if not action.held} == set(COMMANDS) | elsewhere
 
 

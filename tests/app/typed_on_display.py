@@ -1,0 +1,94 @@
+"""Strikes every key of the help on the display's keyboard, by its layout of the moment, and says what the window did.
+
+    DISPLAY=:77 python tests/app/typed_on_display.py
+
+Leaves by CTRL+Q. One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key]. Needs xdotool.
+"""
+
+import json
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2])]
+
+from imgui_bundle import hello_imgui  # noqa: E402  before anything that may load glfw
+
+# isort: split
+from fake_renderer import FakeRenderer  # noqa: E402
+
+from blackhole_gl.app import window  # noqa: E402
+from blackhole_gl.app.keys import Chord, default_bindings  # noqa: E402
+from blackhole_gl.scene import presets  # noqa: E402
+
+HELD_S = 0.4
+AFTER_S = 0.2
+WITHOUT_QUIT_S = 5.0  # after which the window is closed another way, and this is said
+_X_NAMES = {
+    "SPACE": "space", "TAB": "Tab", "ESC": "Escape", "PAGE_UP": "Prior", "PAGE_DOWN": "Next", "LEFT": "Left", "RIGHT": "Right", "UP": "Up", "DOWN": "Down",
+    "PLUS": "plus", "EQUAL": "equal", "MINUS": "minus", "KEYPAD_ADD": "KP_Add", "KEYPAD_SUBTRACT": "KP_Subtract",
+}  # fmt: skip
+
+
+class Recorder:
+    """What the window does, action by action, in place of its doing it."""
+
+    def __init__(self):
+        self.pressed: list[str] = []
+        self.held: list[str] = []
+        self.frames = 0
+        self._do = window.Window.do
+        window.Window.do = lambda _, action: self.pressed.append(action)
+        window.commands.advance = self._advance
+
+    def leave(self) -> None:
+        """From now on the window does what it is told."""
+        window.Window.do = self._do
+
+    def _advance(self, state, hand, dt) -> None:
+        self.frames += 1
+        self.held = list(hand.held)
+        state.clock += dt
+
+
+def x_name(chord: Chord) -> str:
+    """`chord` as xdotool takes it."""
+    key = chord.key if chord.key.startswith("F") and chord.key != "F" else _X_NAMES.get(chord.key, chord.key.lower())
+    return "+".join([*(word.lower() for word in chord.modifiers), key])
+
+
+def strike(chord: Chord, record: Recorder) -> tuple[list[str], list[str], bool]:
+    record.pressed.clear()
+    subprocess.run(["xdotool", "keydown", x_name(chord)], check=True)
+    time.sleep(HELD_S)
+    pressed, held = list(record.pressed), list(record.held)
+    subprocess.run(["xdotool", "keyup", x_name(chord)], check=True)
+    time.sleep(AFTER_S)
+    return pressed, held, not record.held
+
+
+def main() -> None:
+    record, found = Recorder(), {}
+
+    def type_all() -> None:
+        try:
+            while record.frames < 20:
+                time.sleep(0.05)
+            for chord in dict.fromkeys(chord for chords in default_bindings().values() for chord in chords):
+                found[str(chord)] = strike(chord, record)
+            record.leave()
+            subprocess.run(["xdotool", "key", x_name(default_bindings()["quit"][0])], check=True)
+            time.sleep(WITHOUT_QUIT_S)
+            found["still open"] = True
+        finally:
+            hello_imgui.get_runner_params().app_shall_exit = True
+
+    threading.Thread(target=type_all, daemon=True).start()
+    window.run(presets.load(["kerr"]), size=(700, 500), make_renderer=FakeRenderer)
+    print(json.dumps(found))
+
+
+if __name__ == "__main__":
+    main()
