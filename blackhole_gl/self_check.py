@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from concurrent.futures import BrokenExecutor
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -14,10 +15,12 @@ from . import listed_rays
 from .render import context
 from .render.frame import Renderer
 from .scene import presets
+from .worker import Worker
 
 # The self test's own rays: 24 × 12 over the middle of the picture. The bound is the float32 floor of rays that keep 1 % away from
 # the critical curve, with a margin of 10 for drivers whose arithmetic is coarser than IEEE.
 _BOUND = 5e-5
+_WINDOW_S = 30.0  # longer than a window takes to open on any machine
 
 
 @dataclass(frozen=True)
@@ -36,25 +39,23 @@ class Finding:
 
 
 def findings() -> Iterator[Finding]:
-    """Looks at everything, one finding after the other. The viewer needs EGL or OSMesa, float targets and a true self test."""
-    ctx = None
-    for backend, line in (("egl", context.INSTALL_LINE), ("osmesa", context.OSMESA_LINE)):
-        try:
-            made = context.create_headless(backend)
-        except context.ContextError as error:
-            yield Finding(backend, False, f"{error}" if line in str(error) else f"{error}. On Debian or Ubuntu: {line}")
-            continue
-        yield Finding(backend, True, context.describe(made))
-        ctx = ctx or made
-        if ctx is made:
-            yield from _with_context(made)
+    """Looks at everything, one finding after the other. All that is needed is one way to draw without a window, float targets, a true self test, and a
+    window where there is a display: the other way to draw without one is only a fact where it does not work."""
+    ways = [_way(backend, line) for backend, line in (("egl", context.INSTALL_LINE), ("osmesa", context.OSMESA_LINE))]
+    working = [made for _, made in ways if made is not None]
+    for finding, _ in ways:
+        yield replace(finding, works=None, text=f"not needed, and not there: {finding.text}") if working and not finding.works else finding
+    if working:
+        yield from _with_context(working[0])
     yield _window()
 
 
-def good_enough(found: list[Finding]) -> bool:
-    """Whether pictures can be made: one way to a context, float targets, and a self test within its bound."""
-    by_name = {finding.name: finding.works for finding in found}
-    return bool((by_name.get("egl") or by_name.get("osmesa")) and by_name.get("float targets") and by_name.get("self test"))
+def _way(backend: str, line: str) -> tuple[Finding, moderngl.Context | None]:
+    try:
+        made = context.create_headless(backend)
+    except context.ContextError as error:
+        return Finding(backend, False, f"{error}" if line in str(error) else f"{error}. On Debian or Ubuntu: {line}"), None
+    return Finding(backend, True, context.describe(made)), made
 
 
 def _with_context(ctx: moderngl.Context) -> Iterator[Finding]:
@@ -84,14 +85,32 @@ def self_test(renderer: Renderer) -> Finding:
 
 
 def _window() -> Finding:
+    """Opens a hidden window as the viewer does, in a process of its own: here another GLFW may have been loaded, and a driver may end the process."""
+    if not display_present():
+        return Finding("window", None, "no display (DISPLAY is not set; Wayland serves through XWayland, which sets it): the viewer writes a picture instead")
+    worker = Worker()
+    try:
+        return worker.submit(_try_out).result(timeout=_WINDOW_S)
+    except TimeoutError:
+        return Finding("window", False, f"none has opened within {_WINDOW_S:g} s: the display or its driver does not answer")
+    except BrokenExecutor:
+        again = "On Linux, Mesa may draw instead: LIBGL_ALWAYS_SOFTWARE=1 blackhole-gl"
+        return Finding("window", False, f"opening one ends the whole process: the graphics driver fails. {again}")
+    finally:
+        worker.close()
+
+
+def _try_out() -> Finding:
+    """What is found in the other process. Errors stay there: to know their types, this one would have to load the window's libraries."""
     try:
         from .app import window
     except ImportError as error:
         again = f"Install the package's dependencies again: pip install blackhole-gl; on Debian or Ubuntu also: {context.INSTALL_LINE}"
         return Finding("window", False, f"{error}. {again}")
-    if not display_present():
-        return Finding("window", None, "no display (DISPLAY is not set; Wayland serves through XWayland, which sets it): the viewer writes a picture instead")
-    return Finding("window", window is not None, "a display is there, and the window libraries load")
+    try:
+        return Finding("window", True, f"opens: {window.try_out()}")
+    except Exception as error:  # whatever stands in the way of a window is what this is to tell
+        return Finding("window", False, str(error) or type(error).__name__)
 
 
 def display_present() -> bool:

@@ -19,9 +19,11 @@ from ..resources import user_config_dir
 from ..scene import Scene, catalogue
 from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
 from .area import Area
+from .ending import Ending
 from .full_screen import FullScreen
 from .live_chart import LiveChart
 from .mouse import Mouse
+from .opening import WindowError, open_platform
 from .panel import Panel
 from .picture import Picture
 from .preparation import Preparation
@@ -39,10 +41,6 @@ _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, a
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
 _LONGEST_FRAME_S = 0.5
 _RELOAD_PERIOD_S = 0.5
-
-
-class WindowError(RuntimeError):
-    """The window cannot be opened; the text says why and what mends it."""
 
 
 class Driver(Protocol):
@@ -90,39 +88,47 @@ def run(
 
     Raises:
         WindowError: no display, or no OpenGL 3.3.
+        KeyboardInterrupt, SystemExit: the window was closed by a signal; see `ending`.
     """
-    _open_platform(null_platform)
+    open_platform(null_platform)
     window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, may_idle=not null_platform)
     params = _runner_params(window, size)
     if driver is not None:
         params.use_imgui_test_engine = True
         params.callbacks.register_tests = lambda: driver.register(window)
+    with Ending() as ending:
+        _set_up(params)
+        with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
+            at_end.callback(immapp.manual_render.tear_down)
+            at_end.callback(window.warm_up.close)
+            at_end.callback(window.live_chart.close)
+            while not (params.app_shall_exit or ending.signal or (driver is not None and driver.finished)):
+                immapp.manual_render.render()
+    return window.state
+
+
+def try_out() -> str:
+    """Opens a window as `run` does, but hidden, closes it after a frame of nothing, and says what draws in it. To be called in a process of its own.
+
+    Raises:
+        WindowError: see `run`.
+    """
+    described = open_platform(null_platform=False)
+    params = hello_imgui.RunnerParams()
+    params.app_window_params.hidden = True
+    params.ini_disable = True
+    params.renderer_backend_options.open_gl_options = _open_gl_options()
+    _set_up(params)
+    immapp.manual_render.render()
+    immapp.manual_render.tear_down()
+    return described
+
+
+def _set_up(params: hello_imgui.RunnerParams) -> None:
     try:
         immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
     except RuntimeError as error:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
-    with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
-        at_end.callback(immapp.manual_render.tear_down)
-        at_end.callback(window.warm_up.close)
-        at_end.callback(window.live_chart.close)
-        while not params.app_shall_exit and not (driver is not None and driver.finished):
-            immapp.manual_render.render()
-    return window.state
-
-
-def _open_platform(null_platform: bool) -> None:
-    if null_platform:
-        glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
-    said: list[str] = []
-
-    def hear(code: int, text: Any) -> None:  # bytes, whatever glfw's stubs say
-        said.append(text.decode("utf-8", "replace"))
-
-    glfw.set_error_callback(hear)
-    if not glfw.init():
-        raise WindowError(f"no window can be opened: {said[-1] if said else 'GLFW does not start'}. Without a display, use `blackhole-gl render`.")
-    if null_platform:
-        glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
 
 
 def _default_renderer(gl: moderngl.Context) -> Any:
@@ -137,10 +143,7 @@ def _runner_params(window: Window, size: tuple[int, int]) -> hello_imgui.RunnerP
     params.app_window_params.window_geometry.size = size
     params.ini_disable = True
     params.imgui_window_params.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
-    # Multisampling would only smooth the panel's edges, and costs a factor of 3 on software renderers.
-    params.renderer_backend_options.open_gl_options = hello_imgui.OpenGlOptions(
-        glsl_version="330", major_version=3, minor_version=3, use_core_profile=True, use_forward_compat=True, anti_aliasing_samples=0
-    )
+    params.renderer_backend_options.open_gl_options = _open_gl_options()
     params.fps_idling.fps_idle = _IDLE_FPS
     params.fps_idling.time_active_after_last_event = 0.5
     params.fps_idling.enable_idling = False  # until the first picture is there
@@ -159,6 +162,13 @@ def _runner_params(window: Window, size: tuple[int, int]) -> hello_imgui.RunnerP
     callbacks.show_gui = window.frame
     callbacks.custom_background = window.draw_picture
     return params
+
+
+def _open_gl_options() -> hello_imgui.OpenGlOptions:
+    # Multisampling would only smooth the panel's edges, and costs a factor of 3 on software renderers.
+    return hello_imgui.OpenGlOptions(
+        glsl_version="330", major_version=3, minor_version=3, use_core_profile=True, use_forward_compat=True, anti_aliasing_samples=0
+    )
 
 
 def _setup_imgui() -> None:

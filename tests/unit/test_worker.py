@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import pickle
+import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor
@@ -103,3 +106,50 @@ def test_closing_while_it_starts_or_works_says_nothing(tmp_path: Path, seconds: 
     environment = {**os.environ, "PYTHONPATH": str(Path(blackhole_gl.__file__).parents[1])}
     done = subprocess.run([sys.executable, str(script), str(seconds)], capture_output=True, text=True, timeout=60, env=environment)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_what_goes_wrong_in_there_is_told_here(worker: Worker) -> None:
+    with pytest.raises(ZeroDivisionError) as told:
+        worker.submit(divmod, 1, 0).result(timeout=LONG)
+    assert "In the other process" in told.value.__notes__[0]
+    with pytest.raises((AttributeError, TypeError, pickle.PicklingError)):
+        worker.submit(lambda: None).result(timeout=LONG)
+    with pytest.raises(RuntimeError):
+        worker.submit(threading.Lock).result(timeout=LONG)  # made, and cannot be sent
+    assert worker.submit(os.getpid).result(timeout=LONG) != os.getpid()
+
+
+PARENT = """
+import os, sys, time
+from blackhole_gl.worker import Worker
+
+if __name__ == "__main__":
+    worker = Worker()
+    print(worker.submit(os.getpid).result(), flush=True)
+    if sys.argv[1] == "works":
+        worker.submit(time.sleep, 60.0)
+    elif sys.argv[1] == "deaf":  # as in a driver's compiler: nothing of Python's runs meanwhile
+        worker.submit(sum, range(10**12))
+    time.sleep(60.0)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="kills by signals; no other system has them")
+@pytest.mark.parametrize("does", ["waits", "works", "deaf"])
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP], ids=lambda number: number.name)
+def test_it_ends_with_the_process_that_started_it_and_nothing_is_said(tmp_path: Path, number: signal.Signals, does: str) -> None:
+    """The parent gets no chance to close it."""
+    script = tmp_path / "parent.py"
+    script.write_text(PARENT)
+    environment = {**os.environ, "PYTHONPATH": str(Path(blackhole_gl.__file__).parents[1])}
+    # The error output is a pipe, which ends when the last of the processes that hold it has.
+    with subprocess.Popen([sys.executable, str(script), does], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment) as parent:
+        assert parent.stdout is not None
+        child = int(parent.stdout.readline())
+        parent.send_signal(number)
+        try:
+            _, said = parent.communicate(timeout=AT_ONCE)
+        except subprocess.TimeoutExpired:
+            os.kill(child, signal.SIGKILL)
+            raise
+    assert said == ""

@@ -1,0 +1,40 @@
+"""The command line's `view` without a display, with its other process started, for tests of how it ends.
+
+    python tests/app/ended.py
+
+Says the other process's id once a picture is there.
+"""
+
+import functools
+import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from blackhole_gl import cli  # noqa: E402
+
+
+def main() -> None:
+    from blackhole_gl.app import picture, window
+
+    window.run = functools.partial(window.run, null_platform=True)
+    start, update, said = window.Window.start, picture.Picture.update, []
+
+    def started(self: window.Window) -> None:
+        start(self)
+        said.append(self.warm_up._worker.submit(os.getpid))
+
+    def updated(self, *args, **named) -> bool:
+        rendered = update(self, *args, **named)
+        if rendered and said:
+            print(said.pop().result(), flush=True)
+        return rendered
+
+    window.Window.start, picture.Picture.update = started, updated
+    os.environ["DISPLAY"] = ":0"  # the null platform looks at none
+    cli.main()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+"""Nothing outlives the window, and little is said when it ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parent / "ended.py"
+GONE_S = 5.0  # within which nothing is left, on a busy machine
+STATUS = {signal.SIGINT: 130, signal.SIGTERM: 128 + signal.SIGTERM, signal.SIGHUP: 128 + signal.SIGHUP, signal.SIGKILL: -signal.SIGKILL}
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="sends signals to a process group; no other system has them")
+
+
+@pytest.mark.parametrize("number", STATUS, ids=lambda number: number.name)
+def test_a_signal_ends_window_and_helper_and_says_nothing(tmp_path: Path, number: signal.Signals) -> None:
+    """CTRL+C and a closed terminal signal the whole group, as here; SIGTERM and SIGKILL go to the window's process alone."""
+    environment = {**os.environ, "BLACKHOLE_GL_CONFIG_DIR": str(tmp_path)}
+    command = [sys.executable, str(SCRIPT), "view", "--size", "320x200"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, env=environment, start_new_session=True, preexec_fn=_hears_ctrl_c, **pipes) as window:
+        try:
+            assert int(window.stdout.readline()) != window.pid
+            if number in (signal.SIGINT, signal.SIGHUP):
+                os.killpg(window.pid, number)
+            else:
+                window.send_signal(number)
+            # The pipes end when the last of the processes that hold them has.
+            printed, said = window.communicate(timeout=GONE_S)
+        finally:
+            if window.poll() is None or _some_left(window.pid):
+                os.killpg(window.pid, signal.SIGKILL)
+    assert (window.returncode, printed, said) == (STATUS[number], "", "")
+
+
+def _hears_ctrl_c() -> None:
+    """Who starts the tests in the background has it ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _some_left(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
