@@ -118,6 +118,11 @@ def limited(pose: Pose, scene: Scene) -> Pose:
     return replace(pose, reach=min(max(pose.reach, math.log(nearest)), math.log(field.high - floor)))
 
 
+def range_in(scene: Scene, item: Field) -> Field:
+    """`item` with the range that it has in `scene`: the camera's distance begins just above the horizon."""
+    return replace(item, low=max(item.low, horizon_radius(scene) + _NEAREST)) if item.key == "camera.distance" else item
+
+
 def _extent_field(scene: Scene) -> Field:
     return fields()["camera.field_m" if math.isinf(scene.camera.distance) else "camera.distance"]
 

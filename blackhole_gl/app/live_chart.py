@@ -55,12 +55,12 @@ class LiveChart:
         return state.show_chart and (self._live is None or self._view != live.view_of(state.scene) or self._live.busy)
 
     def advance(self, gl: moderngl.Context, state: WindowState, now: float) -> None:
-        """A small bit of measuring, when the chart is shown and the view rests. Leaves the context with another framebuffer bound.
+        """A small bit of measuring, when the chart is shown and the camera rests. Leaves the context with another framebuffer bound.
 
         Args:
             now: any clock in seconds.
         """
-        if not state.show_chart or state.is_moving:
+        if not state.show_chart or state.camera_moves:  # scene time bends no ray
             self._since = now
             return
         view = live.view_of(state.scene)

@@ -11,6 +11,7 @@ from .. import plan
 from ..scene import Scene, catalogue, fields, presets
 from ..scene.schema import Field
 from . import preset_switch, scene_files, theme, widgets
+from .camera_control import range_in
 from .instance_groups import InstanceGroups
 from .state import WindowState
 
@@ -137,7 +138,7 @@ def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
         if plug_in != group:
             group = plug_in
             _subheading(group)
-        widgets.row(item, scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
+        widgets.row(range_in(scene, item), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
     imgui.end_table()
 
 

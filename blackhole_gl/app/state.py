@@ -109,6 +109,11 @@ class WindowState:
         return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and bool(scene.disk_layers())
 
     @property
+    def camera_moves(self) -> bool:
+        """Whether the camera is on its way or under the hand."""
+        return self.dragging or not self.motion.at_rest
+
+    @property
     def is_moving(self) -> bool:
         """Whether the next frame differs from this one without anybody touching anything."""
-        return self.is_playing or self.dragging or not self.motion.at_rest
+        return self.is_playing or self.camera_moves

@@ -335,7 +335,7 @@ class Window:
         state = self.state
         editing = self._is_editing()
         moving = (state.is_moving or editing) and not state.picture_wanted
-        camera_moving = editing or state.dragging or not state.motion.at_rest
+        camera_moving = editing or state.camera_moves
         try:
             rendered = self.picture.update(
                 state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted, window=window

@@ -21,6 +21,7 @@ from blackhole_gl import plan
 from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.window import PANEL
+from blackhole_gl.physics.space_time import space_time
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -212,6 +213,15 @@ def panel_edits_and_resets(hands: Hands) -> None:
     assert hands.scene.camera.distance == 20.0
 
 
+def distance_in_the_panel_ends_above_the_horizon(hands: Hands) -> None:
+    hands.fill("##camera.distance", 0.6)
+    horizon = space_time(hands.scene).horizon_radius
+    assert horizon < hands.scene.camera.distance < horizon + 1e-3
+    hands.fill("##hole.spin", 0.0)
+    hands.fill("##camera.distance", 0.6)
+    assert 1.0 < hands.scene.camera.distance < 1.001, "of another hole it is another"
+
+
 def presets_switched(hands: Hands) -> None:
     hands.context.item_input_value(hands.item("##camera.inclination_deg"), 60.0)
     hands.choose("##Look preset", "Particle Storm##particle_storm")
@@ -385,8 +395,9 @@ def shader_edited(hands: Hands) -> None:
 
 
 def live_chart(hands: Hands) -> None:
-    """C opens the chart, which fills by itself and leaves the picture's own hit map alone; a point's method can be taken."""
-    hands.press(Key.p)
+    """C opens the chart, which fills by itself while time runs and leaves the picture's own hit map alone; a point's method can be taken."""
+    assert hands.state.is_playing, "time runs, and the chart fills all the same"
+    hands.state.change({"playback.target_fps": 0.0})  # a picture that has to keep up may change its size, and trace again
     hands.settle()
     wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
     hands.press(Key.c)

@@ -79,10 +79,11 @@ def main() -> None:
             for chord in dict.fromkeys(chord for chords in default_bindings().values() for chord in chords):
                 found[str(chord)] = strike(chord, record)
             record.leave()
-            subprocess.run(["xdotool", "key", x_name(default_bindings()["quit"][0])], check=True)
+            subprocess.run(["xdotool", "keydown", x_name(default_bindings()["quit"][0])], check=True)
             time.sleep(WITHOUT_QUIT_S)
             found["still open"] = True
         finally:
+            subprocess.run(["xdotool", "keyup", x_name(default_bindings()["quit"][0])], check=False)
             hello_imgui.get_runner_params().app_shall_exit = True
 
     threading.Thread(target=type_all, daemon=True).start()
