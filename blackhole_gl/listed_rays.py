@@ -13,14 +13,15 @@ from typing import Any
 import numpy as np
 
 from . import reference
+from .glsl.declared import Fate
 from .output.files import write_whole
 from .physics import observer
 from .physics.space_time import ray_model, space_time
 from .render.frame import Renderer
-from .scene import Scene
+from .scene import Scene, met
 from .shapes import Float, Int
 
-FATES = ("unresolved", "escaped", "captured")
+FATES = tuple(fate.name.lower() for fate in Fate)
 ANGLES = ("psi", "chi")
 SCREEN = ("alpha", "beta")
 _CROSSINGS = 3
@@ -128,7 +129,10 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
 
     Raises:
         ValueError: the model has no twin.
+        RayListError: the scene has things or media, which no twin knows.
     """
+    if not met.is_empty(scene):
+        raise RayListError("the float64 reference knows no things and no media: take them out of the scene, or trace by the shader")
     if len(rays) == 0:
         return unknown(0)
     camera, model = scene.camera, ray_model(scene)
@@ -149,8 +153,8 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
     )
     kept = np.arange(_CROSSINGS) < scene.rays.orders
     direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
-    met = found.equatorial
-    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (met.r, met.phi, found.g, met.theta, met.k_r, met.k_theta))
+    plane = found.equatorial
+    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (plane.r, plane.phi, found.g, plane.theta, plane.k_r, plane.k_theta))
     return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta)
 
 

@@ -84,6 +84,36 @@ Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
     return Light(light.gathered + light.passed * look.x * emission, light.passed * (1.0 - look.y));
 }
 
+#if MEETINGS > 1
+float medium_distance(int kind, int index, vec3 x) {
+#each medium : if (kind == MEDIUM_$KEY) return medium_$key_distance(index, x);
+    return 0.0;
+}
+
+// Where a ray comes out of the medium that it has met: at the next meeting, if that is the way out and was kept; else straight on,
+// no farther than the next meeting if that ends the ray.
+vec3 way_out(Meeting met, Sight sight, Meeting next, bool kept) {
+    bool known = kept && next.kind >= 0;
+    if (known && next.kind == met.kind && next.index == met.index) return next.place;
+    bool ends = false;
+#each thing : if (known && next.kind == THING_$KEY) ends = THING_$KEY_OPAQUE == 1;
+    float most = ends ? distance(next.place, met.place) : 1e4;
+    float within = 0.0, depth = 0.0, way = 0.0;
+    for (int i = 0; i < 128; ++i) {
+        within = way;
+        way += max(depth, 0.01 + 0.05 * way);
+        float beyond = medium_distance(met.kind, met.index, sight.place - way * sight.towards);
+        if (beyond >= 0.0) {
+            way = mix(within, way, depth / max(depth + beyond, 1e-20));
+            break;
+        }
+        depth = -beyond;
+        if (way >= most) break;
+    }
+    return sight.place - min(way, most) * sight.towards;
+}
+#endif
+
 #if MEETINGS
 // The same after the things and media that come when `crossings` of the disk's plane have gone before.
 Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
@@ -94,7 +124,7 @@ Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
         Sight sight = sight_of(met, energy);
 #each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
 #if MEETINGS > 1
-        vec3 end = k + 1 < MEETINGS && hits.meeting[min(k + 1, MEETINGS - 1)].kind == met.kind ? hits.meeting[min(k + 1, MEETINGS - 1)].place : met.place;
+        vec3 end = way_out(met, sight, hits.meeting[min(k + 1, MEETINGS - 1)], k + 1 < MEETINGS);
 #each medium : if (met.kind == MEDIUM_$KEY && met.enters) own = medium_$key_light(met.index, sight, end);
 #endif
         light = Light(light.gathered + light.passed * own.gathered, light.passed * own.passed);

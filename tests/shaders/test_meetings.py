@@ -205,6 +205,20 @@ for distance in (20.0, 2.5):  # outside of it, and inside
     expected = 1.0 - np.exp(-chord[..., None] * np.array([0.1, 0.2, 0.4]))
     off = np.abs(renderer.radiance() - expected)
     assert np.quantile(off, 0.99) < 2e-3, (distance, np.quantile(off, 0.99))
+
+def mean(**values):
+    renderer.render(presets.load(["kerr"], {**quiet, "camera.distance": 20.0, **values}), 0.0, (90, 60))
+    return renderer.radiance()
+
+alone = {"media.haze.kind": "fog"}
+inside = mean(**alone, **{"media.mist.kind": "fog", "media.mist.radius": 2.0})
+outside = mean(**{"media.haze.kind": "fog", "media.haze.radius": 2.0, "media.mist.kind": "fog"})
+assert np.max(np.abs(inside - outside)) < 5e-3  # whichever comes first: both have the whole of their ways
+assert np.mean(inside) > 1.05 * np.mean(mean(**alone))
+ring = {"things.wall.kind": "annulus", "things.wall.inner_radius": 5.0, "things.wall.outer_radius": 30.0}
+before = mean(**ring, **{"camera.inclination_deg": 80.0})
+behind = mean(**ring, **alone, **{"camera.inclination_deg": 80.0})
+assert np.mean(np.abs(behind - before) > 0.01) > 0.02  # a thing behind a medium leaves it its way
 """
 
 

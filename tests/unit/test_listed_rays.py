@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import listed_rays
+from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import relativity
 from blackhole_gl.scene import Scene, presets
 
@@ -80,3 +81,10 @@ def test_rays_of_which_nothing_is_known_are_written_empty(tmp_path: Path) -> Non
     assert [row["fate"] for row in rows] == ["unresolved", "unresolved"]
     assert [row["lambda"] for row in rows] == ["1.5", ""]
     assert all(value == "" for name, value in rows[0].items() if name not in {"fate", "steps", "evaluations", "lambda"})
+
+
+def test_the_reference_says_that_it_knows_no_things() -> None:
+    scene = scene_of().with_values({"things.ring.kind": "annulus"})
+    with pytest.raises(listed_rays.RayListError, match="no things"):
+        listed_rays.trace_by_reference(scene, RAYS)
+    assert listed_rays.FATES[Fate.MET] == "met"
