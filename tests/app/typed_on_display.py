@@ -2,7 +2,8 @@
 
     DISPLAY=:77 python tests/app/typed_on_display.py
 
-Leaves by CTRL+Q. One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key]. Needs xdotool.
+Leaves by CTRL+Q. One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key],
+and whether the window closed. Needs xdotool.
 """
 
 import json
@@ -70,7 +71,7 @@ def strike(chord: Chord, record: Recorder) -> tuple[list[str], list[str], bool]:
 
 
 def main() -> None:
-    record, found = Recorder(), {}
+    record, found, closed = Recorder(), {}, threading.Event()
 
     def type_all() -> None:
         try:
@@ -79,15 +80,19 @@ def main() -> None:
             for chord in dict.fromkeys(chord for chords in default_bindings().values() for chord in chords):
                 found[str(chord)] = strike(chord, record)
             record.leave()
-            subprocess.run(["xdotool", "keydown", x_name(default_bindings()["quit"][0])], check=True)
-            time.sleep(WITHOUT_QUIT_S)
-            found["still open"] = True
+            leaves = x_name(default_bindings()["quit"][0])
+            subprocess.run(["xdotool", "keydown", leaves], check=True)
+            found["closed"] = closed.wait(WITHOUT_QUIT_S)
+            subprocess.run(["xdotool", "keyup", leaves], check=True)  # the keyboard is the display's, and the next window's
         finally:
-            subprocess.run(["xdotool", "keyup", x_name(default_bindings()["quit"][0])], check=False)
-            hello_imgui.get_runner_params().app_shall_exit = True
+            if not closed.is_set():
+                hello_imgui.get_runner_params().app_shall_exit = True
 
-    threading.Thread(target=type_all, daemon=True).start()
+    typist = threading.Thread(target=type_all)
+    typist.start()
     window.run(presets.load(["kerr"]), size=(700, 500), make_renderer=FakeRenderer)
+    closed.set()
+    typist.join()
     print(json.dumps(found))
 
 
