@@ -34,6 +34,9 @@ class NoGL:
     def __contains__(self, name: str) -> bool:
         return False
 
+    def get(self, name: str, default: None) -> None:
+        return default
+
     def release(self) -> None:
         pass
 
