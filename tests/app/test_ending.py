@@ -23,7 +23,7 @@ def test_a_signal_ends_window_and_helper_and_says_nothing(tmp_path: Path, number
     environment = {**os.environ, "BLACKHOLE_GL_CONFIG_DIR": str(tmp_path)}
     command = [sys.executable, str(SCRIPT), "view", "--size", "320x200"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-    with subprocess.Popen(command, env=environment, start_new_session=True, preexec_fn=_hears_ctrl_c, **pipes) as window:
+    with subprocess.Popen(command, env=environment, start_new_session=True, preexec_fn=_hears_signals, **pipes) as window:
         try:
             assert int(window.stdout.readline()) != window.pid
             if number in (signal.SIGINT, signal.SIGHUP):
@@ -38,9 +38,10 @@ def test_a_signal_ends_window_and_helper_and_says_nothing(tmp_path: Path, number
     assert (window.returncode, printed, said) == (STATUS[number], "", "")
 
 
-def _hears_ctrl_c() -> None:
-    """Who starts the tests in the background has it ignored."""
+def _hears_signals() -> None:
+    """Who starts the tests in the background has CTRL+C ignored, and who starts them by nohup a closed terminal."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def _some_left(group: int) -> bool:

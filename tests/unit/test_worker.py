@@ -120,10 +120,11 @@ def test_what_goes_wrong_in_there_is_told_here(worker: Worker) -> None:
 
 
 PARENT = """
-import os, sys, time
+import os, signal, sys, time
 from blackhole_gl.worker import Worker
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # ignored, where the tests were started by nohup
     worker = Worker()
     print(worker.submit(os.getpid).result(), flush=True)
     if sys.argv[1] == "works":
