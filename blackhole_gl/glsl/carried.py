@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .blocks import Block
+from .live import Words
 
 MOST_INPUTS = 15
 """vec4 inputs of a fragment shader that every driver of GL 3.3 has room for (GL_MAX_VARYING_COMPONENTS is 60 at least)."""
@@ -29,12 +30,13 @@ class Carried:
     vertex: str
 
 
-def carry(blocks: Sequence[Block], words: frozenset[str]) -> Carried:
-    """The numbers of `blocks` that occur in `words`, as inputs as far as there is room; the fragment shader reads the rest from the blocks."""
-    mentioned = sorted(((name, kind) for block in blocks for name, kind in block.members if name in words), key=lambda member: -_FLOATS[member[1]])
+def carry(blocks: Sequence[Block], words: Words) -> Carried:
+    """The numbers of `blocks` that `words` name: those that are run as inputs as far as there is room; the fragment shader reads the rest from the blocks."""
+    mentioned = {name: kind for block in blocks for name, kind in block.members if name in words.compiled}
+    used = sorted(((name, kind) for name, kind in mentioned.items() if name in words.run), key=lambda member: -_FLOATS[member[1]])
     room, taken = 4 * MOST_INPUTS, 0
     defines, moves = [], []
-    for name, kind in mentioned:
+    for name, kind in used:
         size = _FLOATS[kind]
         if taken + size > room:
             continue
@@ -43,11 +45,11 @@ def carry(blocks: Sequence[Block], words: frozenset[str]) -> Carried:
         defines.append(f"#define {name} {_as_given(kind, columns)}")
         taken += size
     count = -(-taken // 4)
-    left_out = {name for name, _ in mentioned} - {line.split()[1] for line in defines}
+    left_out = mentioned.keys() - {line.split()[1] for line in defines}
     kept = [block for block in blocks if any(name in left_out for name, _ in block.members)]
     fragment = [block.glsl for block in kept]
     fragment += [f"flat in vec4 carried_{k};" for k in range(count)] + defines
-    vertex = [block.glsl for block in blocks if any(name in words for name, _ in block.members)]
+    vertex = [block.glsl for block in blocks if any(name in words.run for name, _ in block.members)]
     vertex += [f"flat out vec4 carried_{k};" for k in range(count)] + ["void carry() {", *moves, "}"]
     return Carried("\n".join(fragment), "\n".join(vertex))
 

@@ -6,7 +6,7 @@ Directives, each alone on its line and never acted on inside a comment:
 ``#slot ray_model``                   the file of the plug-in chosen for a slot
 ``#slots disk_layer``                 the files of all plug-ins chosen for a slot
 ``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` and ``$KEY`` replaced
-``#blocks``                           the numbers that the host gives, those that the text mentions
+``#blocks``                           the numbers that the host gives, those that the compiled text mentions
 ``#defines``                          the switches that the text mentions
 ``#instances``                        what reads the tables of the scene's things and media
 
@@ -19,6 +19,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from .live import Words, live_words
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -52,13 +54,13 @@ class Composed:
         text: GLSL for the driver.
         places: for each line of `text`, its (file, 1-based line).
         defines: the switches that the text mentions, with their values.
-        words: every identifier in the text, less those in line comments.
+        words: the identifiers of what is compiled and run.
     """
 
     text: str
     places: tuple[tuple[str, int], ...]
     defines: Mapping[str, int]
-    words: frozenset[str] = frozenset()
+    words: Words
 
     def explain(self, log: str) -> ShaderError:
         """The driver's compile `log` as an error that names the author's file and line (the first with a place)."""
@@ -87,7 +89,7 @@ def compose(
     *,
     chosen: Mapping[str, Sequence[str]] | None = None,
     switches: Mapping[str, int] | None = None,
-    blocks: Callable[[frozenset[str]], str] = lambda words: "",
+    blocks: Callable[[Words], str] = lambda words: "",
     instances: str = "",
 ) -> Composed:
     """The text of the file at `path` with all directives carried out.
@@ -104,8 +106,9 @@ def compose(
         ShaderError: a file or a slot is missing, or a directive is malformed.
     """
     lines = list(_expand(roots, path, chosen or {}, set(), ("", 0)))
-    words = frozenset(word for text, _ in lines for word in _WORD.findall(text.partition("//")[0]))
-    used = {name: value for name, value in (switches or {}).items() if name in words}
+    mentioned = {word for text, _ in lines for word in _WORD.findall(text.partition("//")[0])}
+    used = {name: value for name, value in (switches or {}).items() if name in mentioned}
+    words = live_words((text for text, _ in lines), used)
     out: list[tuple[str, tuple[str, int]]] = []
     for text, place in lines:
         if text.strip() == "#defines":

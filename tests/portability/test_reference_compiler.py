@@ -13,6 +13,8 @@ from pathlib import Path
 
 import pytest
 
+from blackhole_gl.glsl.live import live_words
+from blackhole_gl.render import uniforms
 from blackhole_gl.resources import shaders_dir
 from tests.portability.every_program import collect
 
@@ -77,6 +79,20 @@ def test_what_the_vertex_shader_hands_on_is_what_the_fragment_shader_takes(progr
         given, taken = re.findall(r"^flat out (.*)$", vertex, re.M), re.findall(r"^flat in (.*)$", fragment, re.M)
         assert given == taken, name
         assert re.findall(r"^(?:smooth |noperspective )?in .*$", fragment, re.M) == [], name
+
+
+def test_whatever_a_program_runs_with_is_carried_to_it(programs: Texts) -> None:
+    """What finds no room is fetched anew at every use, which once cost the disk's shader a fifth of its time (docs/llvmpipe.md, uniforms).
+
+    There is more than fits in one place alone: a moving frame's disk, which besides its own numbers takes what the refined map is read by.
+    """
+    numbers = {name for block in uniforms.blocks() for name, _ in block.members}
+    for (_, fragment), name in programs.items():
+        carried = set(re.findall(r"^#define (\w+) .*\bcarried_\d", fragment, re.M))
+        text = re.sub(r"uniform \w+ \{.*?\};", "", fragment, flags=re.S)
+        left_out = numbers & live_words(text.splitlines(), {}).run - carried
+        crowded = name.startswith("shade_matter.frag") and "#define HIT_MAP_REFINED 1" in fragment
+        assert not left_out or crowded and all(word.startswith("disk_") for word in left_out), name
 
 
 def test_every_text_asks_for_330_core_in_its_first_line(programs: Texts) -> None:

@@ -8,14 +8,24 @@ import pytest
 
 from blackhole_gl.glsl.blocks import Block
 from blackhole_gl.glsl.carried import MOST_INPUTS, carry
+from blackhole_gl.glsl.live import Words
 
 KINDS = {"float": (), "int": (), "vec2": (2,), "vec4": (4,), "mat4": (4, 4)}
 
 
+BLOCKS = Block("A", 0, (("one", "float"), ("two", "vec2"))), Block("B", 1, (("three", "float"),))
+
+
 def test_only_what_is_mentioned_is_carried() -> None:
-    made = carry((Block("A", 0, (("one", "float"), ("two", "vec2"))), Block("B", 1, (("three", "float"),))), frozenset({"two", "main"}))
+    made = carry(BLOCKS, Words(frozenset({"two", "main"}), frozenset({"two", "main"})))
     assert "#define two carried_0.xy" in made.fragment and "one" not in made.fragment and "uniform" not in made.fragment
     assert "uniform A" in made.vertex and "uniform B" not in made.vertex
+
+
+def test_what_no_call_reaches_is_declared_and_takes_no_room() -> None:
+    made = carry(BLOCKS, Words(frozenset({"two", "three"}), frozenset({"two"})))
+    assert "#define two carried_0.xy" in made.fragment and "three carried" not in made.fragment and "uniform B" in made.fragment
+    assert "uniform B" not in made.vertex
 
 
 @pytest.mark.parametrize("many", [1, 40])
@@ -26,7 +36,7 @@ def test_every_number_arrives_whole(ctx: moderngl.Context, many: int) -> None:
     )
     rng = np.random.default_rng(3)
     values = {name: rng.integers(-(2**23), 2**23, KINDS[kind]) for name, kind in block.members}
-    made = carry((block,), frozenset(values))
+    made = carry((block,), Words(frozenset(values), frozenset(values)))
     assert made.fragment.count("flat in") <= MOST_INPUTS
     assert ("uniform" in made.fragment) == (many == 40)
     reads, expected = [], []

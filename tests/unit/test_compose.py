@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from blackhole_gl.glsl.compose import Composed, ShaderError, compose
+from blackhole_gl.glsl.live import Words
 
 
 @pytest.fixture
@@ -62,7 +63,7 @@ def test_only_switches_that_the_text_mentions_are_written(shaders):
 
 
 def test_blocks_are_put_in_and_keep_the_lines_right(shaders):
-    made = compose(shaders(main="#blocks\nint a; // aa\n"), "main.glsl", blocks=lambda words: f"uniform B {{\n    float {min(words)};\n}};")
+    made = compose(shaders(main="#blocks\nint a; // aa\n"), "main.glsl", blocks=lambda words: f"uniform B {{\n    float {min(words.compiled)};\n}};")
     assert made.text == "uniform B {\n    float a;\n};\nint a; // aa\n"
     assert made.place(2) == ("main.glsl", 1) and made.place(4) == ("main.glsl", 2)
 
@@ -105,7 +106,8 @@ def test_a_missing_main_file_has_no_place(tmp_path):
     assert caught.value.file == "" and "none.frag" in str(caught.value)
 
 
-COMPOSED = Composed("a\nb\nc\nd\n", (("main.frag", 1), ("common/noise.glsl", 7), ("common/noise.glsl", 8), ("main.frag", 3)), {})
+NONE = Words(frozenset(), frozenset())
+COMPOSED = Composed("a\nb\nc\nd\n", (("main.frag", 1), ("common/noise.glsl", 7), ("common/noise.glsl", 8), ("main.frag", 3)), {}, NONE)
 
 # As the drivers write them; Mesa's with and without a trailing space, NVIDIA's with its code, AMD's, Intel's on Windows and Apple's alike.
 LOGS = {
