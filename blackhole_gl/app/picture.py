@@ -108,7 +108,7 @@ class Picture:
             window: where a picture that moves may be drawn at once.
 
         Returns:
-            Whether a picture was rendered.
+            Whether a picture was rendered that is to be shown.
         """
         now = clock.perf_counter()
         self._targets.begin_frame()
@@ -124,9 +124,7 @@ class Picture:
             return self._improve(drawing)
         fills_window = moving and self._readiness.is_over and drawing.size == area.size
         report = self._render(step, drawing, area, window if fills_window else None, now)
-        if report is not None:
-            self._take(report, step, scale)
-        return report is not None
+        return report is not None and self._take(report, step, scale)
 
     def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
         """Fills `area` of `window` with the picture, and the rest with black."""
@@ -134,7 +132,7 @@ class Picture:
 
     def count_rays(self) -> None:
         """Brings `rays` up to date with the hit map. A part of it is read back, so this is for frames in which no rays are traced."""
-        if self._rays_stale and self.is_sharp:
+        if self._rays_stale and self._readiness.is_over and self.is_sharp:
             self.rays = RayFigures.of(*self.renderer.fates_and_steps())
             self._rays_stale = False
 
@@ -169,6 +167,8 @@ class Picture:
             self.renderer.hit_map.forget()
         self.renderer.programs.deadline = step.deadline
         try:
+            if step.rehearses:
+                return self._targets.rehearse(drawing)
             return self._targets.render(drawing) if window is None else self._targets.render_into(window, area, drawing)
         except Unready:
             self.renderer.hit_map.forget()  # it may be half drawn
@@ -181,15 +181,19 @@ class Picture:
             self._keep_if_possible()
             raise
 
-    def _take(self, report: Any, step: Step, scale: float) -> None:
-        """Takes in what the picture of `step` turned out as, and what it means for those to come."""
-        self.report, self.scale = report, scale
-        self._sharpening.begin(step.drawn)
+    def _take(self, report: Any, step: Step, scale: float) -> bool:
+        """Takes in what the picture of `step` turned out as, and what it means for those to come. Returns whether it is shown."""
+        self._readiness.drew(step)
         self._rays_stale |= report.traced
         if step.rehearses:
             self._pace.pause()
+            self._made_of = None
+            if self.report is not None:
+                return False
         else:
             if step.is_first:
                 self._pace.forget()
             self._pace.learn(report, scale)
-        self._readiness.drew(step)
+        self.report, self.scale = report, scale
+        self._sharpening.begin(step.drawn)
+        return True

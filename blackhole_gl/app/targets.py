@@ -62,9 +62,15 @@ class Targets:
 
     def render(self, drawing: Drawing) -> Any:
         """Draws into the texture; returns the report."""
-        target = self._spare_of(drawing.size).frame
-        report = self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, measure=True, progressive=drawing.progressive)
+        report = self._draw_spare(drawing)
         self._show_spare()
+        return report
+
+    def rehearse(self, drawing: Drawing) -> Any:
+        """Draws what is shown only where there is nothing else to show, at the start; returns the report."""
+        report = self._draw_spare(drawing)
+        if self._shown is None and self._in_window is None:
+            self._show_spare()
         return report
 
     def render_into(self, window: moderngl.Framebuffer, area: Area, drawing: Drawing) -> Any:
@@ -113,6 +119,10 @@ class Targets:
         width, height = self._shown.size
         data = np.frombuffer(self._shown.frame.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
+
+    def _draw_spare(self, drawing: Drawing) -> Any:
+        target = self._spare_of(drawing.size).frame
+        return self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, measure=True, progressive=drawing.progressive)
 
     def _show_spare(self) -> None:
         self._shown, self._spare = self._spare, self._shown

@@ -221,18 +221,18 @@ class Shown:
 
     AREA = Area(0, 0, 64, 36)
 
-    def __init__(self, ctx, renderer):
-        self.picture = Picture(ctx, renderer, Preparation(lambda scene, size: Future()))
+    def __init__(self, ctx, renderer, submit=lambda scene, size: Future()):
+        self.picture = Picture(ctx, renderer, Preparation(submit))
         self.window = ctx.simple_framebuffer((96, 54))
         self._time = 0.0
         while not self.picture.is_current:
             self.draw(0.0, moving=False)
 
-    def draw(self, azimuth, *, moving=True):
+    def draw(self, azimuth, *, moving=True, disk=True):
         """A frame of the window; a moving picture's disk has turned. Returns whether a picture was rendered."""
         self._time += 0.1 if moving else 0.0
         self.window.clear(0.0, 1.0, 0.0)
-        scene = Scene().with_values({"camera.azimuth_deg": azimuth, "playback.target_fps": 0.0})
+        scene = Scene().with_values({"camera.azimuth_deg": azimuth, "playback.target_fps": 0.0, "disk.enabled": disk})
         try:
             return self.picture.update(scene, self._time, self.AREA, moving=moving, camera_moving=False, window=self.window)
         finally:
@@ -303,6 +303,28 @@ def test_the_last_picture_stays_while_programs_are_missing(shown):
     shown.picture.renderer.render = missing
     for _ in range(3):
         assert not shown.draw(60.0) and shown.seen() == close(40.0)
+
+
+def test_the_coarse_pictures_that_begin_another_scene_are_never_seen(ctx):
+    done = Future()
+    done.set_result(None)
+    shown = Shown(ctx, Renderer(ctx), lambda scene, size: done)
+    shown.draw(20.0), shown.draw(40.0)
+    sizes, seen = shown.picture.renderer.calls, []
+    before = len(sizes)
+    while not seen or not shown.picture.is_current:
+        rendered = shown.draw(60.0, disk=False)
+        assert rendered == shown.picture.is_current and shown.picture.scale == 1.0
+        assert shown.seen() == close(60.0 if shown.picture.is_current else 40.0)
+        seen.append(rendered)
+    assert seen == [False, False, False, True], "missed, rehearsed twice, drawn"
+    assert [size for *_, size in sizes[before:]] == [Shown.AREA.size, (16, 9), (16, 9), Shown.AREA.size], "kept, and the rest"
+
+
+def test_a_coarse_picture_is_shown_where_there_is_none_yet(ctx):
+    picture = Picture(ctx, FakeRenderer(ctx), Preparation(None))
+    assert picture.update(PLAIN, 0.0, Shown.AREA, moving=False, camera_moving=False)
+    assert picture.read_rgb8().shape == (9, 16, 3) and not picture.is_current
 
 
 def test_a_coarse_picture_is_enlarged_from_the_texture(ctx):
