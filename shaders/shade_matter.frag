@@ -55,7 +55,12 @@ vec3 disk_radiance(float r, float lambda, float energy) {
     float temperature = disk_temperature(r);
     float power = temperature * temperature;
     power *= power * pow(max(gravity * power_shift, 1e-6), disk_beaming_exponent);
-    return blackbody_colour(disk_temperature_k * temperature * gravity * colour_shift) * (power * disk_emission_strength * EMISSION_UNIT);
+    float brightness = power * disk_emission_strength * EMISSION_UNIT;
+#if DISK_COLOUR_WHITE
+    return vec3(brightness);
+#else
+    return blackbody_colour(disk_temperature_k * temperature * gravity * colour_shift) * brightness;
+#endif
 }
 
 // Density → (brightness, share hidden of what lies behind), both for a piece of disk that covers the whole pixel.

@@ -106,6 +106,10 @@ class Disk:
     temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
     frequency_shift: str = choice("exact", ("exact", "s0", "s1"), "The g-factor: exact, or the formula of an older viewer.", physical="exact")
     beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
+    colour: str = choice(
+        "blackbody", ("blackbody", "white"),
+        "The colours that the temperatures have, or white light of the same luminance: the brightness alone, as on a black-and-white plate.",
+    )
     doppler_colour: bool = switch(True, "Shift the colour by the motion of the matter.", physical=True)
     beaming: bool = switch(True, "Brighten what approaches, dim what recedes.", physical=True)
     redshift: bool = switch(True, "Redden and dim what climbs out of the well.", physical=True)

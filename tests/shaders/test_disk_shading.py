@@ -50,6 +50,14 @@ def test_mirrored_holes_give_mirrored_pictures(light) -> None:
     np.testing.assert_allclose(light(hole__spin=-0.6), light(hole__spin=0.6)[:, ::-1], rtol=5e-3, atol=5e-3)
 
 
+def test_white_light_has_the_luminance_of_the_black_bodies(light) -> None:
+    """The fits of the colours keep luminance 1 but for the six digits of their weights; half floats: 1e-3."""
+    coloured, white = light(), light(disk__colour="white")
+    assert np.all(white == white[..., :1])
+    assert np.any(coloured[..., 0] > 1.5 * coloured[..., 2])
+    np.testing.assert_allclose(coloured @ (0.2126, 0.7152, 0.0722), white[..., 0], rtol=2e-3, atol=1e-4)
+
+
 def test_switches_act_on_what_they_say(light) -> None:
     """Without beaming, Doppler colour and redshift both sides shine alike; each alone makes them differ or dims."""
     off = dict(disk__beaming=False, disk__doppler_colour=False, disk__redshift=False, hole__spin=0.0)

@@ -35,6 +35,14 @@ def test_physics_and_scenes(renderer: Renderer, name: str) -> None:
     assert_sound(renderer, presets.load([name]))
 
 
+def test_the_first_picture_of_a_disk_has_no_colour(renderer: Renderer) -> None:
+    """But for the dither, which is off here."""
+    renderer.render(presets.load(["luminet_1979"], {"post.dither": False}), 0.0, SIZE)
+    picture = renderer.read_rgb8().astype(int)
+    assert np.all(picture.max(axis=-1) == picture.min(axis=-1))
+    assert picture.max() > 200
+
+
 @pytest.mark.parametrize("look", LOOKS)
 def test_looks(renderer: Renderer, look: str) -> None:
     assert_sound(renderer, presets.load(["kerr_06", look]))

@@ -100,5 +100,7 @@ def test_gargantua_as_filmed_has_no_doppler_effects():
     assert not (scene.disk.doppler_colour or scene.disk.beaming or scene.disk.redshift)
 
 
-def test_luminet_is_seen_from_infinity():
-    assert math.isinf(presets.load(["luminet_1979"]).camera.distance)
+def test_luminet_is_seen_from_infinity_in_white_light():
+    scene = presets.load(["luminet_1979"])
+    assert math.isinf(scene.camera.distance)
+    assert scene.disk.colour == "white" and not scene.sky.enabled
