@@ -119,7 +119,7 @@ class Picture:
         progressive = step.rehearsal
         if progressive is None:
             progressive = camera_moving or not (exact or self.is_current and self.is_sharp)
-        drawing = Drawing(step.drawn, time, area.scaled(scale), progressive)
+        drawing = Drawing(step.drawn, time, area.scaled(scale), progressive, passes=moving and not camera_moving)
         if drawing == self._made_of and self.is_sharp and not step.rehearses:
             return self._improve(drawing)
         fills_window = moving and self._readiness.is_over and drawing.size == area.size

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import moderngl
@@ -27,13 +27,19 @@ void main() { colour = texture(picture, place); }
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a picture is drawn of: the scene, its time in r_s/c, and the picture's (width, height). `progressive` only says how, so drawings that
-    differ in nothing else are equal."""
+    """What a picture is drawn of: the scene, its time in r_s/c, and the picture's (width, height). The rest only says how, so drawings that
+    differ in nothing else are equal.
+
+    Attributes:
+        progressive: whether some pixels may be interpolated between rays.
+        passes: whether only time runs, and the next picture replaces this one.
+    """
 
     scene: Scene
     time: float
     size: tuple[int, int]
     progressive: bool = field(compare=False)
+    passes: bool = field(compare=False)
 
 
 class Targets:
@@ -62,13 +68,13 @@ class Targets:
 
     def render(self, drawing: Drawing) -> Any:
         """Draws into the texture; returns the report."""
-        report = self._draw_spare(drawing)
+        report = self._draw(drawing, self._spare_of(drawing.size).frame)
         self._show_spare()
         return report
 
     def rehearse(self, drawing: Drawing) -> Any:
         """Draws what is shown only where there is nothing else to show, at the start; returns the report."""
-        report = self._draw_spare(drawing)
+        report = self._draw(drawing, self._spare_of(drawing.size).frame)
         if self._shown is None and self._in_window is None:
             self._show_spare()
         return report
@@ -76,9 +82,7 @@ class Targets:
     def render_into(self, window: moderngl.Framebuffer, area: Area, drawing: Drawing) -> Any:
         """Draws into `area` of `window`; returns the report."""
         self._clear_beside(window, area)
-        report = self._renderer.render(
-            drawing.scene, drawing.time, drawing.size, target=window, viewport=area.viewport, measure=True, progressive=drawing.progressive
-        )
+        report = self._draw(drawing, window, area.viewport)
         self._in_window, self._is_there = drawing, True
         return report
 
@@ -90,7 +94,7 @@ class Targets:
 
     def keep(self) -> Any:
         """Draws the last picture into the texture, if only the window has it. Returns the report; None where nothing was drawn."""
-        return None if self._in_window is None else self.render(self._in_window)
+        return None if self._in_window is None else self.render(replace(self._in_window, passes=False))
 
     def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
         """Fills `area` of `window` with the picture, and the rest with black."""
@@ -120,9 +124,9 @@ class Targets:
         data = np.frombuffer(self._shown.frame.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
-    def _draw_spare(self, drawing: Drawing) -> Any:
-        target = self._spare_of(drawing.size).frame
-        return self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, measure=True, progressive=drawing.progressive)
+    def _draw(self, drawing: Drawing, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int] | None = None) -> Any:
+        how: dict[str, Any] = {"measure": True, "progressive": drawing.progressive, "glow_may_last": drawing.passes}
+        return self._renderer.render(drawing.scene, drawing.time, drawing.size, target=target, viewport=viewport, **how)
 
     def _show_spare(self) -> None:
         self._shown, self._spare = self._spare, self._shown

@@ -82,6 +82,7 @@ class Renderer:
         *,
         measure: bool = False,
         progressive: bool = False,
+        glow_may_last: bool = False,
     ) -> FrameReport:
         """Draws `scene` at scene time `time` (r_s/c).
 
@@ -92,6 +93,7 @@ class Renderer:
             measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
                 further call for the same hits makes a slice of the picture exact, until the report says that it is sharp.
+            glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``.
 
         Raises:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
@@ -103,7 +105,7 @@ class Renderer:
         self._stamp(stamps, measure)
         radiance = self._shaded(inputs)
         self._stamp(stamps, measure)
-        self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size))
+        self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         plan = inputs.plan

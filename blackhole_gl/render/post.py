@@ -14,6 +14,9 @@ from .target import Target
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
 
+GLOW_LASTS = 0.25
+"""Scene time in r_s/c for which a glow may stand still: the picture is then off by 0.01 grey levels in the mean, and nowhere by more than 4."""
+
 TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
 """Size of the tone table, as switches of the shaders that make it and read it: bits of the mantissa, and exponents."""
 
@@ -51,14 +54,27 @@ class PostPass:
         self._up: list[_Level] = []
         self._tone: Target | None = None
         self._tone_key: tuple | None = None
+        self._lasting: FrameInputs | None = None  # the frame that the glow was made of, where the next one may have it too
 
-    def draw(self, inputs: FrameInputs, radiance: moderngl.Texture, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
-        """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`."""
+    def draw(
+        self,
+        inputs: FrameInputs,
+        radiance: moderngl.Texture,
+        target: moderngl.Framebuffer,
+        viewport: tuple[int, int, int, int],
+        *,
+        glow_may_last: bool = False,
+    ) -> None:
+        """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`.
+
+        Args:
+            glow_may_last: whether the glow may be that of the last frame, if this one differs from it by little time alone; never that of one before.
+        """
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
         radiance.repeat_x = radiance.repeat_y = False
         samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
         if inputs.plan.scene.post.bloom:
-            samplers["glow"] = self._bloom(inputs, radiance)
+            samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
         if viewport[2:] == radiance.size:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
         tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
@@ -80,7 +96,7 @@ class PostPass:
     def _release_levels(self) -> None:
         for level in (*self._down, *self._up):
             level.target.release()
-        self._down, self._up, self._size = [], [], None
+        self._down, self._up, self._size, self._lasting = [], [], None, None
 
     def _tone_table(self, inputs: FrameInputs) -> moderngl.Texture:
         """The curve of one channel, made anew when a number or a choice that it depends on has changed."""
@@ -93,6 +109,13 @@ class PostPass:
             curve.draw()
             self._tone_key = key
         return self._tone.texture
+
+    def _glow(self, inputs: FrameInputs, radiance: moderngl.Texture, *, may_last: bool) -> moderngl.Texture:
+        if may_last and self._lasting is not None and _lasts(self._lasting, inputs):
+            self._lasting = None
+            return (self._up or self._down)[-1].texture
+        self._lasting = inputs if may_last else None
+        return self._bloom(inputs, radiance)
 
     def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
         post = inputs.plan.scene.post
@@ -130,6 +153,11 @@ class PostPass:
         target = Target.of(self._ctx, [texture])
         target.frame.viewport = 0, 0, *size
         return _Level(target, size)
+
+
+def _lasts(before: FrameInputs, now: FrameInputs) -> bool:
+    """Whether the glow of the frame `before` will do for `now`."""
+    return abs(now.time - before.time) <= GLOW_LASTS and (before.size, before.plan) == (now.size, now.plan)
 
 
 def _padded(size: tuple[int, int]) -> tuple[int, int]:

@@ -42,13 +42,15 @@ class FakeRenderer:
         self.programs = FakePrograms()
         self.hit_map = FakeHitMap()
         self.fail = None
+        self.glow_may_last = False
         self.us_per_pixel = 0.0
         self.finer, self.finer_of = 0, None
 
-    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False):
+    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False, glow_may_last=False):
         if self.fail is not None:
             raise self.fail
         self.calls.append((scene, time, size))
+        self.glow_may_last = glow_may_last
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)
         return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0)

@@ -266,6 +266,16 @@ def test_a_moving_picture_goes_into_the_window_at_once_and_is_kept_when_it_rests
     assert 720.0 * (shown.picture.read_rgb8()[0, 0, 0] / 255.0 - 0.5) == close(60.0)
 
 
+def test_a_glow_may_last_only_while_time_alone_runs(shown):
+    """Neither in a picture under a moving camera, nor in one that stays."""
+    shown.draw(20.0), shown.draw(20.0)
+    assert shown.picture.renderer.glow_may_last
+    shown.draw(20.0, moving=False)
+    assert not shown.picture.renderer.glow_may_last, "kept as it is without"
+    shown.picture.update(PLAIN, 9.0, Shown.AREA, moving=True, camera_moving=True, window=shown.window)
+    assert not shown.picture.renderer.glow_may_last
+
+
 def test_the_last_good_picture_stays_where_only_the_window_had_it(shown):
     shown.draw(20.0), shown.draw(40.0)
     render, failures = shown.picture.renderer.render, []

@@ -9,7 +9,7 @@ import pytest
 from blackhole_gl import plan
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.post import PostPass, bloom_sizes
+from blackhole_gl.render.post import GLOW_LASTS, PostPass, bloom_sizes
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.scene import Scene
 
@@ -231,6 +231,63 @@ def test_bloom_off_compiles_no_bloom(ctx) -> None:
     made.render(Scene().with_values({"post.bloom": False}), 0.0, (8, 8))
     assert set(asked) == {"post/tone_table.frag", "post/tone_map.frag"}
     made.release()
+
+
+class Glows:
+    """Frames of one renderer in the order that a test asks for, small and with a strong glow."""
+
+    def __init__(self, renderer):
+        self._renderer, self._bloom, self.made = renderer, renderer._post._bloom, 0
+        renderer._post._bloom = self._counted
+        self.picture(0.0, may_last=False)
+
+    def _counted(self, *given):
+        self.made += 1
+        return self._bloom(*given)
+
+    def picture(self, time: float, *, may_last: bool, size=(96, 54), **values) -> np.ndarray:
+        """`self.made` is then 1 if its glow is its own, else 0."""
+        self.made = 0
+        scene = Scene().with_values({"post.dither": False, **{key.replace("__", ".", 1): value for key, value in values.items()}})
+        self._renderer.render(scene, time, size, glow_may_last=may_last)
+        return self._renderer.read_rgb8().astype(int)
+
+
+@pytest.fixture
+def glows(renderer, monkeypatch):
+    monkeypatch.setattr(renderer._post, "_bloom", renderer._post._bloom)  # put back afterwards
+    return Glows(renderer)
+
+
+def test_a_glow_lasts_for_one_frame_more_and_is_not_seen_to(glows) -> None:
+    """Three of 255 levels at most, where the disk's brightest streaks pass, and a fiftieth in the mean: a glow is weak, and wider than a streak."""
+    made, running = [], []
+    for frame in range(8):
+        running.append(glows.picture(3.0 + 0.13 * frame, may_last=True))  # rate 4 at thirty frames a second
+        made.append(glows.made)
+    assert made == [1, 0] * 4
+    error = [np.abs(found - glows.picture(3.0 + 0.13 * frame, may_last=False)) for frame, found in enumerate(running)]
+    assert all(not found.any() for found in error[::2])
+    assert max(found.max() for found in error) <= 3 and max(found.mean() for found in error) < 0.02
+    assert any(found.any() for found in error[1::2]), "or nothing was spared"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"time": 3.0 + 2.0 * GLOW_LASTS}, {"size": (97, 54)}, {"camera__inclination_deg": 60.0}, {"post__bloom_spread": 0.2}, {"may_last": False}],
+)
+def test_no_other_picture_has_the_last_ones_glow(glows, change) -> None:
+    glows.picture(3.0, may_last=True)
+    found = glows.picture(**{"time": 3.01, "may_last": True, **change})
+    assert glows.made == 1
+    np.testing.assert_array_equal(found, glows.picture(**{"time": 3.01, **change, "may_last": False}))
+
+
+def test_a_glow_does_not_outlast_a_picture_between(glows) -> None:
+    glows.picture(3.0, may_last=True)
+    glows.picture(3.01, may_last=False)
+    glows.picture(3.02, may_last=True)
+    assert glows.made == 1
 
 
 def test_a_picture_can_stand_anywhere_in_its_target(ctx, renderer) -> None:
