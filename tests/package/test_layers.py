@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "blackhole_gl"
 
 # Lowest first. A part imports from rows below its own and from itself, never sideways or upwards.
 LAYERS = (
-    {"resources", "shapes", "worker"},
+    {"resources", "shapes", "text_files", "worker"},
     {"output"},
     {"scene"},
     {"physics"},

@@ -182,13 +182,14 @@ def test_a_wrong_entry_names_file_line_key_and_what_is_allowed(preset_file, text
         (b"[hole\n", r"not TOML: .*line 1"),
         (b"[hole]\nspin = 0.1\nspin = 0.2\n", r"not TOML: .*line 3"),
         (b"[hole]\n[hole]\n", "not TOML: .*line 2"),
-        (b"\xff\xfe[\0h\0", "not UTF-8"),
+        (b"[hole]\nspin = \xff", "not UTF-8"),
+        (b"\xff\xfe[\0h", "not UTF-8"),
         (b"title = " + b"[" * 5000, "not TOML"),
         (b"[rays]\nmax_steps = " + b"9" * 6000, "not TOML"),
         (b"disk" + b".enabled" * 5000 + b" = 1", "got a table|nested too deeply"),
         (b"a" + b".a" * 5000 + b" = 1", "no such key|nested too deeply"),
     ],
-    ids=range(8),
+    ids=range(9),
 )
 def test_a_file_that_is_no_preset_gives_a_sentence(tmp_path, data, says):
     path = tmp_path / "mine.toml"

@@ -27,16 +27,17 @@ from typing import Any
 
 from ...output import png
 from ...resources import presets_dir, user_config_dir
+from ...text_files import decimal_comma, read_text
 from .. import Scene, fields, instances
 from ..catalogue import KIND
 from ..schema import SceneError
 from . import paths
 from .reading import GROUPS, Preset, PresetError, parse, unknown_key
-from .writing import dumps, picture_text, save
+from .writing import dumps, picture_text, save, version
 
 __all__ = [
     "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "dumps", "from_png",
-    "load", "parse", "parse_assignments", "picture_text", "read", "save", "user_presets_dir",
+    "load", "parse", "parse_assignments", "picture_text", "read", "save", "user_presets_dir", "version",
 ]
 
 USER_GROUP = "user"
@@ -155,9 +156,7 @@ def read(name_or_path: str | Path) -> Preset:
         path, group = _find(name_or_path)
     source = str(path)
     try:
-        text = png.read_scene_text(path) if path.suffix.lower() == ".png" else path.read_bytes().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise PresetError(f"not UTF-8 text (byte {error.start}); save it as UTF-8", source=source) from None
+        text = png.read_scene_text(path) if path.suffix.lower() == ".png" else read_text(path)
     except OSError as error:
         raise PresetError(f"cannot be read: {error.strerror or error}", source=source) from None
     except ValueError as error:
@@ -179,5 +178,6 @@ def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:
                 given = paths.anchored(item, item.parse(given) if isinstance(given, str) else item.check(given), Path.cwd())
             scene = scene.with_values({key: given})
         except SceneError as error:
-            raise PresetError(error.message, key=key, source="--set") from None
+            hint = decimal_comma(given) if isinstance(given, str) else ""
+            raise PresetError(error.message + hint, key=key, source="--set") from None
     return scene

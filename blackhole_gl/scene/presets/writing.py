@@ -26,7 +26,7 @@ def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str
 
 def picture_text(scene: Scene, time: float, folder: Path | None = None) -> str:
     """The whole of `scene`, the time (r_s/c) and our version as TOML: what a picture saved in `folder` carries."""
-    return _dump(scene, True, {"time": float(time), "version": _version()}, folder)
+    return _dump(scene, True, {"time": float(time), "version": version()}, folder)
 
 
 def save(scene: Scene, path: str | Path, *, title: str = "", description: str = "", group: str = "", full: bool = False) -> Path:
@@ -50,7 +50,8 @@ def save(scene: Scene, path: str | Path, *, title: str = "", description: str = 
     return path
 
 
-def _version() -> str:
+def version() -> str:
+    """This program's."""
     try:
         return metadata.version("blackhole-gl")
     except metadata.PackageNotFoundError:  # run from a checkout that is not installed
