@@ -9,6 +9,8 @@ from typing import Annotated
 
 import typer
 
+from .output import streams
+from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
@@ -22,6 +24,13 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+_COMMANDS = ("view", "render", "trace", "plan", "bench", "check", "presets")
+_FLAGS = ("--measure", "--float64", "--euler", "--no-euler")  # options that no value follows
+
+Named = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[PRESET]...", help="Presets, as with --preset; those given with --preset are layered over them.", show_default=False),
+]
 Presets = Annotated[
     list[str] | None,
     typer.Option(
@@ -43,24 +52,52 @@ def main() -> None:
     from .glsl.compose import ShaderError
     from .render.context import ContextError
 
+    streams.prepare()
     try:
-        app()
-    except (SceneError, ShaderError, ContextError, ValueError, OSError) as error:
+        app(_with_command(sys.argv[1:]))
+    except OSError as error:
+        print(f"blackhole-gl: {error.filename}: {error.strerror}" if error.filename else f"blackhole-gl: {error}", file=sys.stderr)
+        sys.exit(2)
+    except (SceneError, ShaderError, ContextError, ValueError) as error:
         print(f"blackhole-gl: {error}", file=sys.stderr)
         sys.exit(2)
 
 
-@app.callback(invoke_without_command=True)
-def default(context: typer.Context) -> None:
+def _with_command(arguments: list[str]) -> list[str]:
+    """`arguments` with the command in front: one that options stand before, or view where none is named."""
+    value_follows = False
+    for place, argument in enumerate(arguments):
+        if argument in ("-h", "--help", "--version") and place == 0:
+            return arguments
+        if argument in _COMMANDS and not value_follows:
+            return [argument, *arguments[:place], *arguments[place + 1 :]]
+        if not argument.startswith("-"):
+            if not value_follows:
+                break  # the first of the presets: what follows is a preset, too
+            value_follows = False
+        else:
+            value_follows = not value_follows and argument not in _FLAGS and "=" not in argument
+    return ["view", *arguments]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print(f"blackhole-gl {preset_files.version()}")
+        raise typer.Exit
+
+
+@app.callback()
+def default(
+    version: Annotated[bool, typer.Option("--version", is_eager=True, callback=_show_version, help="Say which version this is.")] = False,
+) -> None:
     """Black holes in real time, with an error bar. Without a command: view."""
     for mistake in catalogue.mistakes():
         print(f"blackhole-gl: left out: {mistake}", file=sys.stderr)
-    if context.invoked_subcommand is None:
-        view()
 
 
 @app.command()
 def view(
+    names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     size: Annotated[str, typer.Option(help="Width × height of the window.")] = "1280x800",
@@ -68,6 +105,7 @@ def view(
     """Open the viewer. Without a display: write a picture and say where."""
     from .self_check import display_present
 
+    preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
     if not display_present():
         out = Path("blackhole.png").resolve()
@@ -83,7 +121,8 @@ def view(
 
 @app.command()
 def render(
-    out: Annotated[Path, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.")],
+    names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
@@ -92,7 +131,9 @@ def render(
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
+    preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
+    refuse_unwritable(out, (".png",), "a PNG picture")
     _refuse_unmet(scene)
     _render(scene, _size(size), _time(time, preset), out, supersample, backend)
 
@@ -100,7 +141,8 @@ def render(
 @app.command()
 def trace(
     rays: Annotated[Path, typer.Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
-    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a ray.")],
+    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a ray. - is standard output.")],
+    names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     float64: Annotated[bool, typer.Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
@@ -112,18 +154,21 @@ def trace(
     """
     from . import listed_rays
 
+    preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
     listed = listed_rays.read(rays, scene)
     _refuse_unmet(scene)
     if float64:
-        found = listed_rays.trace_by_reference(scene, listed)
+        found = listed_rays.trace_by_reference(scene, listed.rays)
     else:
-        found = listed_rays.trace_by_shader(_renderer(backend), scene, listed)
-    listed_rays.write(out, found, 17 if float64 else 9)
+        found = listed_rays.trace_by_shader(_renderer(backend), scene, listed.rays)
+    listed_rays.write(out, found, 17 if float64 else 9, listed)
 
 
 @app.command()
 def plan(
+    names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     measure: Annotated[bool, typer.Option("--measure", help="Measure error and cost here and now beside the predictions.")] = False,
@@ -132,6 +177,7 @@ def plan(
     """Say how a scene's rays are traced, why, and what error and cost to expect. A tolerance that cannot be met is refused."""
     from . import plan as planning
 
+    preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
     chosen, made = planning.choice.choose(scene), planning.plan(scene)
     moving = planning.choice.refinement(chosen.scene)
@@ -157,6 +203,7 @@ def plan(
 
 @app.command()
 def bench(
+    names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
@@ -169,9 +216,10 @@ def bench(
     from json import dumps
 
     from .measure import bench as benching
-    from .output.files import write_whole
-
+    preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
+    if json is not None:
+        refuse_unwritable(json, (".json",), "JSON")
     sizes = [_size(text) for text in size] if size else benching.SIZES
     renderer = _renderer(backend)
     with Progress("timing") as progress:

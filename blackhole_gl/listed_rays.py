@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,15 +20,41 @@ from .physics.space_time import ray_model, space_time
 from .render.frame import Renderer
 from .scene import Scene, met
 from .shapes import Float, Int
+from .text_files import TextError, decimal_comma, read_text
 
 FATES = tuple(fate.name.lower() for fate in Fate)
 ANGLES = ("psi", "chi")
 SCREEN = ("alpha", "beta")
 _CROSSINGS = 3
+# Column → what is allowed, in words and as a range. A float64 that is rounded up to π where written must not be refused.
+_ALLOWED = {"psi": ("0 to π (3.14159…) radians, from the direction to the hole's centre", 0.0, math.nextafter(math.pi, 4.0))}
+_AT_CROSSINGS, _MOMENTA = ("r", "phi", "g"), ("theta", "k_r", "k_theta")
+
+
+def _numbered(columns: Iterable[str]) -> list[str]:
+    return [f"{name}{n}" for n in range(_CROSSINGS) for name in columns]
+
+
+_HEADER = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA)]
 
 
 class RayListError(ValueError):
     """A ray list that cannot be used; the text names file, line and column."""
+
+
+@dataclass(frozen=True)
+class RayList:
+    """A list of N rays as it was read.
+
+    Attributes:
+        rays: (N, 2) float64: ψ, χ in radians, or α, β in M for a camera at infinity.
+        names: all columns of the file.
+        texts: a row a ray: what stands in them.
+    """
+
+    rays: np.ndarray
+    names: tuple[str, ...]
+    texts: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -65,32 +91,46 @@ def columns(scene: Scene) -> tuple[str, str]:
     return SCREEN if math.isinf(scene.camera.distance) else ANGLES
 
 
-def read(path: Path, scene: Scene) -> Float[np.ndarray, "N 2"]:
-    """The rays of the CSV file at `path` as (N, 2) float64: ψ, χ in radians, or α, β in M for a camera at infinity.
+def read(path: Path, scene: Scene) -> RayList:
+    """The rays of the CSV file at `path`: ψ (0…π) and χ in radians, or α, β in M for a camera at infinity.
 
     Raises:
-        RayListError: no such columns, or a value that is no finite number.
+        RayListError: no such columns, a row that has not as many values as there are columns, or a value that is not allowed.
         OSError: the file cannot be read.
     """
     wanted = columns(scene)
-    with open(path, newline="", encoding="utf-8-sig") as file:
-        reader = csv.DictReader(file, skipinitialspace=True)
-        names = [name.strip() for name in reader.fieldnames or ()]
-        if missing := [name for name in wanted if name not in names]:
-            found = ",".join(names) or "nothing"
-            raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {found}")
-        reader.fieldnames = names
-        rows = [[_number(row[name], path, reader.line_num, name) for name in wanted] for row in reader]
-    return np.array(rows, float).reshape(-1, 2)
-
-
-def _number(text: str | None, path: Path, line: int, column: str) -> float:
     try:
-        value = float(text or "")
+        reader = csv.reader(io.StringIO(read_text(path)), skipinitialspace=True)
+        names = tuple(name.strip() for name in next(reader, ()))
+        _refuse_names(names, wanted, path)
+        rows = [(reader.line_num, row) for row in reader if row]
+    except (csv.Error, TextError) as error:
+        raise RayListError(f"{path}: {error}") from None
+    places = [names.index(name) for name in wanted]
+    for line, row in rows:
+        if len(row) != len(names):
+            raise RayListError(f"{path}, line {line}: {len(row)} values for {len(names)} columns; the decimal mark is a point: 0.5, not 0,5")
+    rays = [[_number(row[place], path, line, names[place]) for place in places] for line, row in rows]
+    return RayList(np.array(rays, float).reshape(-1, 2), names, tuple(tuple(row) for _, row in rows))
+
+
+def _refuse_names(names: tuple[str, ...], wanted: tuple[str, str], path: Path) -> None:
+    if missing := [name for name in wanted if name not in names]:
+        found = ",".join(names) or "nothing"
+        hint = "; columns are separated by commas" if any(mark in found for mark in ";\t") else ""
+        raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {found}{hint}")
+    if taken := [name for name in names if name in _HEADER or names.count(name) > 1]:
+        raise RayListError(f"{path}: column {taken[0]} is there twice in what is written; allowed is any other name")
+
+
+def _number(text: str, path: Path, line: int, column: str) -> float:
+    try:
+        value = float(text)
     except ValueError:
         value = math.nan
-    if not math.isfinite(value):
-        raise RayListError(f"{path}, line {line}, column {column}: got {text!r}; allowed is a finite number")
+    allowed, low, high = _ALLOWED.get(column, ("a finite number", -math.inf, math.inf))
+    if not (math.isfinite(value) and low <= value <= high):
+        raise RayListError(f"{path}, line {line}, column {column}: got {text!r}; allowed is {allowed}{decimal_comma(text)}")
     return value
 
 
@@ -164,30 +204,28 @@ def unknown(count: int) -> TracedRays:
     return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing)
 
 
-def write(path: Path, rays: TracedRays, digits: int) -> None:
-    """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty."""
+def write(path: Path, rays: TracedRays, digits: int, listed: RayList | None = None) -> None:
+    """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty.
+
+    The columns of `listed` stand behind the others, as they were given, so that these are where they always are.
+    """
     theta = np.arctan2(np.hypot(rays.direction[:, 0], rays.direction[:, 1]), rays.direction[:, 2])
     phi = np.arctan2(rays.direction[:, 1], rays.direction[:, 0])
-    at_crossings = {"r": rays.crossing_r, "phi": rays.crossing_phi, "g": rays.crossing_g}
-    momenta = {"theta": rays.crossing_theta, "k_r": rays.crossing_k_r, "k_theta": rays.crossing_k_theta}
-    header = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(at_crossings), "lambda", *_numbered(momenta)]
+    at_crossings = (rays.crossing_r, rays.crossing_phi, rays.crossing_g)
+    momenta = (rays.crossing_theta, rays.crossing_k_r, rays.crossing_k_theta)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
+    writer.writerow([*_HEADER, *(listed.names if listed else ())])
     for i, fate in enumerate(rays.fate):
         ends = _texts((theta[i], phi[i]), digits)
         there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i)), digits)
-        writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there])
+        writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there, *(listed.texts[i] if listed else ())])
     write_whole(path, text.getvalue().encode())
 
 
-def _numbered(columns: Mapping[str, np.ndarray]) -> list[str]:
-    return [f"{name}{n}" for n in range(_CROSSINGS) for name in columns]
-
-
-def _in_turn(columns: Mapping[str, np.ndarray], ray: int) -> list[float]:
+def _in_turn(columns: Iterable[np.ndarray], ray: int) -> list[float]:
     """A ray's values in the order of `_numbered`."""
-    return [values[ray, n] for n in range(_CROSSINGS) for values in columns.values()]
+    return [values[ray, n] for n in range(_CROSSINGS) for values in columns]
 
 
 def _texts(values: Iterable[float], digits: int) -> list[str]:

@@ -88,3 +88,29 @@ def test_the_reference_says_that_it_knows_no_things() -> None:
     with pytest.raises(listed_rays.RayListError, match="no things"):
         listed_rays.trace_by_reference(scene, RAYS)
     assert listed_rays.FATES[Fate.MET] == "met"
+
+
+@pytest.mark.parametrize(
+    "text, says",
+    [
+        ("psi,chi\n0.1,2\n3.2,1\n", r"line 3, column psi: got '3.2'; allowed is 0 to π"),
+        ("psi,chi\n-0.1,2\n", r"line 2, column psi: got '-0.1'; allowed is 0 to π"),
+        ("psi,chi\n0.1,inf\n", "line 2, column chi: got 'inf'; allowed is a finite number"),
+        ('psi,chi\n0.1,"0,5"\n', "line 2, column chi: got '0,5'; .*write 0.5, not 0,5"),
+        ("psi,chi\n0,5,1,2\n", "line 2: 4 values for 2 columns; .*0.5, not 0,5"),
+        ("psi;chi\n0.1;2\n", "column psi is missing; .*separated by commas"),
+        ("psi,chi,fate\n0.1,2,x\n", "column fate is there twice"),
+        ("psi,chi\n0.1,\x00\xff", "not UTF-8"),
+    ],
+)
+def test_a_list_that_cannot_be_used_is_told_with_file_and_place(tmp_path: Path, text: str, says: str) -> None:
+    path = tmp_path / "rays.csv"
+    path.write_bytes(text.encode("latin-1") if "\xff" in text else text.encode())
+    with pytest.raises(listed_rays.RayListError, match=rf"rays\.csv.*{says}"):
+        listed_rays.read(path, scene_of())
+
+
+def test_the_ends_of_the_range_of_angles_are_allowed(tmp_path: Path) -> None:
+    path = tmp_path / "rays.csv"
+    path.write_text(f"psi,chi\n0,-40\n{math.pi:.17g},40\n")
+    assert listed_rays.read(path, scene_of()).rays.tolist() == [[0.0, -40.0], [math.pi, 40.0]]

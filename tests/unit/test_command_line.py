@@ -1,0 +1,167 @@
+"""The command line as people type it, and what goes in and out of it as text."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+from blackhole_gl import cli
+from blackhole_gl.output import files, streams
+from blackhole_gl.scene import presets
+
+ROOT = Path(__file__).resolve().parents[2]
+PNG = b"\x89PNG\r\n\x1a\n"
+SMALL = ["--preset", "low", "--size", "32x18"]
+ENCODINGS = {
+    "utf-8": {"PYTHONIOENCODING": "utf-8"},
+    "cp1252": {"PYTHONIOENCODING": "cp1252"},
+    "cp437": {"PYTHONIOENCODING": "cp437"},
+    "C": {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"},
+}
+
+
+def run(folder: Path, *arguments: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
+    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "PYTHONIOENCODING")
+    known = {name: value for name, value in os.environ.items() if name not in hidden}
+    known |= {"PYTHONPATH": str(ROOT), "BLACKHOLE_GL_CONFIG_DIR": str(folder / "config"), **environment}
+    return subprocess.run([sys.executable, "-m", "blackhole_gl", *arguments], env=known, cwd=folder, capture_output=True, timeout=200)
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_no_listing_fails_for_a_character(tmp_path: Path, encoding: str) -> None:
+    done = run(tmp_path, "plan", "--preset", "kerr", **ENCODINGS[encoding])
+    assert done.returncode == 0, done.stderr
+    read_back = done.stdout.decode("utf-8" if encoding == "C" else encoding)
+    assert ("κ" if encoding in ("utf-8", "C") else "kappa") in read_back
+
+
+def test_what_no_encoding_has_is_spelled_out() -> None:
+    assert streams.spelled("κ = 0.5, 3 × 4, Δ ≤ 2°, r²") == "kappa = 0.5, 3 x 4, Delta <= 2 deg, r2"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_presets_and_ray_lists_of_other_editors_are_read(tmp_path: Path, encoding: str) -> None:
+    from blackhole_gl import listed_rays
+
+    preset, rays = tmp_path / "mine.toml", tmp_path / "rays.csv"
+    preset.write_bytes('title = "Loch, κ"\r\n[hole]\r\nspin = 0.25\r\n'.encode(encoding))
+    rays.write_bytes("psi,chi\r\n0.5,1\r\n".encode(encoding))
+    scene = presets.load([preset])
+    assert scene.hole.spin == 0.25
+    assert listed_rays.read(rays, scene).rays.tolist() == [[0.5, 1.0]]
+
+
+@pytest.mark.parametrize("name", ["-", "/dev/stdout"])
+def test_a_picture_goes_to_standard_output_and_nothing_else(tmp_path: Path, name: str) -> None:
+    done = run(tmp_path, "render", "kerr", *SMALL, "-o", name)
+    assert done.returncode == 0 and done.stdout.startswith(PNG) and done.stdout.endswith(b"IEND\xaeB`\x82"), done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_traced_rays_go_to_standard_output_with_their_own_columns_behind(tmp_path: Path) -> None:
+    (tmp_path / "rays.csv").write_text("tag,psi,chi\nedge on,0.1,2\n,0.5,1\n")
+    done = run(tmp_path, "trace", "schwarzschild", "--rays", "rays.csv", "-o", "-", "--float64")
+    assert done.returncode == 0, done.stderr
+    rows = list(csv.DictReader(io.StringIO(done.stdout.decode())))
+    assert list(rows[0])[0] == "fate" and list(rows[0])[-3:] == ["tag", "psi", "chi"]
+    assert [(row["tag"], row["psi"]) for row in rows] == [("edge on", "0.1"), ("", "0.5")]
+
+
+def test_an_output_that_cannot_be_written_is_told_by_its_own_name_and_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cli, "_renderer", lambda backend: pytest.fail("it was rendered first"))
+    (tmp_path / "file").touch()
+    for out, error in ((tmp_path, OSError), (tmp_path / "file" / "x.png", OSError), (tmp_path / "x.jpg", ValueError)):
+        with pytest.raises(error) as told:
+            cli.render(out=out, preset=["kerr"], size="32x18")
+        assert str(out) in str(told.value)
+        assert ".part" not in str(told.value)
+
+
+def test_what_fails_while_it_is_written_has_the_name_that_was_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(OSError) as told:
+        files.write_whole(tmp_path / "file" / "x.png", b"")
+    assert told.value.filename == str(tmp_path / "file" / "x.png")
+
+
+@pytest.mark.parametrize(
+    "typed, meant",
+    [
+        ("", "view"),
+        ("--preset kerr", "view --preset kerr"),
+        ("-p kerr -s hole.spin=0.5", "view -p kerr -s hole.spin=0.5"),
+        ("kerr", "view kerr"),
+        ("picture.png high", "view picture.png high"),
+        ("--preset kerr render -o x.png", "render --preset kerr -o x.png"),
+        ("--preset=kerr plan", "plan --preset=kerr"),
+        ("--float64 trace --rays r.csv", "trace --float64 --rays r.csv"),
+        ("view kerr", "view kerr"),
+        ("--version", "--version"),
+        ("--help", "--help"),
+    ],
+)
+def test_options_stand_where_people_type_them(typed: str, meant: str) -> None:
+    assert cli._with_command(typed.split()) == meant.split()
+
+
+def test_presets_are_named_without_an_option(tmp_path: Path) -> None:
+    assert run(tmp_path, "render", "kerr", "-s", "hole.spin=0.5", *SMALL, "-o", "x.png").returncode == 0
+    (tmp_path / "mine.toml").write_text(presets.dumps(presets.from_png(tmp_path / "x.png")))
+    for name in ("x.png", "mine.toml"):
+        (tmp_path / "blackhole.png").unlink(missing_ok=True)
+        done = run(tmp_path, name, "low")  # a view, which writes a picture where there is no display
+        assert done.returncode == 0, done.stderr
+        assert presets.from_png(tmp_path / "blackhole.png").hole.spin == 0.5
+    assert run(tmp_path, "--version").stdout.startswith(b"blackhole-gl ")
+
+
+COMMAND = re.compile(r"^(?: {4}|```sh\n)?(?:\.venv/bin/)?(blackhole-gl(?: [^#`\n]*)?)|`(blackhole-gl(?: [^`\n]*)?)`", re.MULTILINE)
+PAGES = (ROOT / "README.md", *(ROOT / "docs").glob("*.md"))
+LINES = sorted({(found[1] or found[2]).strip() for page in PAGES for found in COMMAND.finditer(page.read_text(encoding="utf-8"))})
+# Named in a sentence, as the command that it is, and without what the command needs.
+ONLY_NAMED = ("blackhole-gl render", "blackhole-gl trace", "blackhole-gl trace --float64")
+
+
+def arguments_of(line: str) -> list[str]:
+    return cli._with_command(shlex.split(line)[1:])
+
+
+# `check` and `bench` look at the machine for long, and have tests of their own; the others draw, or name what the reader has.
+QUICK_COMMANDS = ("render", "trace", "plan", "presets", "--version")
+QUICK = [line for line in LINES if line not in ONLY_NAMED and arguments_of(line)[0] in QUICK_COMMANDS and "NAME" not in line]
+
+
+def test_the_documents_have_command_lines() -> None:
+    assert len(LINES) > 20 and {arguments_of(line)[0] for line in QUICK} == set(QUICK_COMMANDS)
+
+
+@pytest.mark.parametrize("line", [line for line in LINES if line not in ONLY_NAMED])
+def test_every_command_line_of_the_documents_is_understood(line: str) -> None:
+    """Parsed only, those too that open a window or are about kinds which the reader is to write."""
+    name, *rest = arguments_of(line)
+    if name != "--version":
+        command = typer.main.get_command(cli.app)
+        command.commands[name].make_context(name, rest)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "cp1252", "C"])
+@pytest.mark.parametrize("line", QUICK)
+def test_command_lines_that_open_no_window_run_as_they_are(tmp_path: Path, line: str, encoding: str) -> None:
+    """But for the size of pictures, which are drawn small."""
+    (tmp_path / "rays.csv").write_text("psi,chi\n0.5,1\n")
+    arguments = shlex.split(line)[1:]
+    if arguments_of(line)[0] == "render":
+        if "--supersample" in arguments:
+            arguments[arguments.index("--supersample") + 1] = "1"
+        arguments += ["--size", "32x18"]
+    done = run(tmp_path, *arguments, **ENCODINGS[encoding])
+    assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
