@@ -249,7 +249,7 @@ def presets(
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
-        print(preset_files.dumps(preset_files.load([name]), full=True), end="")
+        print(preset_files.dumps(_scene([name], None), full=True), end="")
         return
     group = ""
     for info in preset_files.available():
@@ -260,7 +260,10 @@ def presets(
 
 
 def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
-    return preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
+    scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
+    for sentence in preset_files.skipped(names or ()):
+        print(f"blackhole-gl: {sentence}", file=sys.stderr)
+    return scene
 
 
 def _refuse_unmet(scene: Scene) -> None:

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..text_files import read_text
+
 MODIFIERS = ("CTRL", "SHIFT", "ALT", "SUPER")
 
 
@@ -130,7 +132,7 @@ def load_bindings(path: Path) -> Bindings:
     if not path.is_file():
         return default_bindings()
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(read_text(path))
     except (OSError, ValueError) as error:
         raise KeysError(f"{path}: cannot be read: {error}") from None
     bindings = dict(default_bindings())

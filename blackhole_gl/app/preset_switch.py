@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from ..scene import Scene, instances, presets
 from ..scene.catalogue import KIND
@@ -18,6 +18,14 @@ def chosen_among(names: Iterable[str]) -> dict[str, str]:
     return {groups[name]: name for name in names if name in groups}
 
 
+def start(scene: Scene, names: Sequence[str]) -> WindowState:
+    """The state of a window that opens on `scene`, made from the presets called `names`."""
+    state = WindowState.start(scene, chosen_among(names))
+    if skipped := presets.skipped(names):
+        state.tell("Opened, but for what this version does not know.", skipped)
+    return state
+
+
 def pick(state: WindowState, group: str, name: str) -> None:
     """Puts the preset `name` of `group` into the scene.
 
@@ -31,11 +39,14 @@ def pick(state: WindowState, group: str, name: str) -> None:
             chosen = {key: value for key, value in state.chosen.items() if key in LAYERED} | {group: name}
             scene = presets.read(name).over(_taken_back(state, group, name, chosen))
         moves_camera = group in WHOLE or any(key.startswith("camera.") for key in presets.read(name).values)
+        skipped = presets.skipped([name])
     except presets.SceneError as error:
         state.complain(str(error))
         return
     state.chosen = chosen
     state.show(scene, as_home=moves_camera)
+    if skipped:
+        state.tell(f"Took the preset {name}.", skipped)
 
 
 def _taken_back(state: WindowState, group: str, new: str, chosen: Mapping[str, str]) -> Scene:

@@ -42,13 +42,13 @@ def save(state: WindowState) -> None:
 def load(state: WindowState) -> None:
     """Shows the scene of the file named in the file field, a preset or a picture that was saved here."""
     try:
-        scene = presets.load([path_of(state.file)])
+        scene, skipped = presets.load([path_of(state.file)]), presets.skipped([path_of(state.file)])
     except presets.SceneError as error:
         state.complain(str(error))
         return
     state.chosen = {}
     state.show(scene, as_home=True)
-    state.say(f"Loaded {path_of(state.file)}")
+    state.tell(f"Loaded {path_of(state.file)}", skipped)
 
 
 def text_of(state: WindowState) -> str:
@@ -62,14 +62,14 @@ def take(state: WindowState, text: str) -> None:
     try:
         preset = presets.parse(text, "clipboard")
         if not preset.values:
-            raise presets.PresetError("holds no value of a scene; copy a preset's text first", source="clipboard")
+            raise presets.PresetError("; ".join(["holds no value of a scene", *preset.skipped[:1], "copy a preset's text first"]), source="clipboard")
         scene = preset.over(Scene())
     except presets.SceneError as error:
         state.complain(str(error))
         return
     state.chosen = {}
     state.show(scene, as_home=True)
-    state.say("Took the scene from the clipboard.")
+    state.tell("Took the scene from the clipboard.", preset.skipped)
 
 
 def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,6 +10,8 @@ from ..scene import Scene, SceneError
 from .camera_control import Motion, pose_of, values_of
 
 NOTICE_SECONDS = 6.0
+MOST_TOLD = 5
+"""Sentences in one notice about what was skipped: with more it would hide the picture."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,14 @@ class WindowState:
     def complain(self, text: str) -> None:
         """Shows `text` as an error, until something else is shown or the user dismisses it."""
         self.notice = Notice(text, is_error=True)
+
+    def tell(self, done: str, skipped: Sequence[str]) -> None:
+        """Says what was done; with what was skipped, a sentence each, until the user dismisses it."""
+        if not skipped:
+            self.say(done)
+            return
+        rest = [f"… and {len(skipped) - MOST_TOLD} more."] if len(skipped) > MOST_TOLD else []
+        self.complain("\n".join([done, *skipped[:MOST_TOLD], *rest]))
 
     @property
     def is_playing(self) -> bool:

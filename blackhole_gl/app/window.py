@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -66,7 +66,7 @@ class _View:
 def run(
     scene: Scene,
     *,
-    preset_names: Iterable[str] = (),
+    preset_names: Sequence[str] = (),
     null_platform: bool = False,
     size: tuple[int, int] = SIZE,
     picture_folder: Path | None = None,
@@ -190,7 +190,7 @@ class Window:
     """
 
     def __init__(
-        self, scene: Scene, preset_names: Iterable[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool
+        self, scene: Scene, preset_names: Sequence[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool
     ):
         self.open(scene, preset_names)
         self.key_file = user_config_dir() / "keys.toml"
@@ -208,9 +208,9 @@ class Window:
         self._editing = False
         self._drawn_scene = scene
 
-    def open(self, scene: Scene, preset_names: Iterable[str] = ()) -> None:
+    def open(self, scene: Scene, preset_names: Sequence[str] = ()) -> None:
         """Starts afresh on `scene`, made from the presets of these names."""
-        self.state = WindowState.start(scene, preset_switch.chosen_among(preset_names))
+        self.state = preset_switch.start(scene, preset_names)
         self.state.shader_error = _shader_mistakes(())
         self._panel = Panel()
 

@@ -26,6 +26,13 @@ def test_named_actions_change_and_others_stay(tmp_path):
     assert bindings["pause"] == default_bindings()["pause"]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_the_file_is_read_as_other_editors_write_it(tmp_path, encoding):
+    file = tmp_path / "keys.toml"
+    file.write_bytes('disk = "Ö"\r\n'.encode(encoding))
+    assert load_bindings(file)["disk"] == (Chord("ö"),)
+
+
 @pytest.mark.parametrize(
     "text, words",
     [

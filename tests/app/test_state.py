@@ -120,6 +120,37 @@ def test_missing_preset_is_a_notice(state):
     assert state.notice.is_error and "no_such_look" in state.notice.text
 
 
+def newer(path, says='[hole]\nspin = 0.25\ncharge = 0.1\n'):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(says)
+    return path
+
+
+def test_what_a_newer_presets_file_has_more_is_told_and_the_rest_is_shown(state, tmp_path):
+    state.file = str(newer(tmp_path / "new.toml"))
+    newer(presets.user_presets_dir() / "later.toml")
+    ways_in = {
+        "loaded": lambda: scene_files.load(state),
+        "picked": lambda: preset_switch.pick(state, presets.USER_GROUP, "later"),
+        "pasted": lambda: scene_files.take(state, (tmp_path / "new.toml").read_text()),
+    }
+    for how, show in ways_in.items():
+        state.show(Scene())
+        state.say("nothing yet")
+        show()
+        assert state.scene.hole.spin == 0.25, how
+        assert state.notice.is_error and "line 3: hole.charge: skipped" in state.notice.text, how
+    opened = preset_switch.start(presets.load([state.file]), [state.file])
+    assert opened.scene.hole.spin == 0.25 and "hole.charge: skipped" in opened.notice.text
+    assert preset_switch.start(Scene(), ["kerr"]).notice is None
+
+
+def test_a_notice_of_much_that_was_skipped_stays_short(state, tmp_path):
+    state.file = str(newer(tmp_path / "new.toml", "".join(f"new{n} = 1\n" for n in range(40))))
+    scene_files.load(state)
+    assert state.notice.text.count("\n") == 6 and "and 35 more" in state.notice.text
+
+
 def test_names_in_the_file_field(state, tmp_path):
     assert scene_files.path_of("mine") == presets.user_presets_dir() / "mine.toml"
     assert scene_files.path_of(str(tmp_path / "a.png")) == tmp_path / "a.png"

@@ -60,6 +60,17 @@ def test_presets_and_ray_lists_of_other_editors_are_read(tmp_path: Path, encodin
     assert listed_rays.read(rays, scene).rays.tolist() == [[0.5, 1.0]]
 
 
+def test_what_a_newer_version_has_is_told_and_the_rest_is_used(tmp_path: Path) -> None:
+    (tmp_path / "new.toml").write_text("[hole]\nspin = 0.25\ncharge = 0.1\n")
+    done = run(tmp_path, "trace", "new.toml", "--float64", "--rays", "/dev/null", "-o", "-")
+    assert done.returncode == 2, "an empty list is refused"
+    assert done.stderr.decode().startswith("blackhole-gl: new.toml, line 3: hole.charge: skipped, for this version has no such key")
+    shown = run(tmp_path, "presets", "new.toml")
+    assert shown.returncode == 0 and b"spin = 0.25" in shown.stdout and shown.stderr.count(b"hole.charge: skipped") == 1
+    mistyped = run(tmp_path, "plan", "-s", "hole.spni=0.5")
+    assert mistyped.returncode == 2 and b"--set: hole.spni: no such key; did you mean hole.spin?" in mistyped.stderr
+
+
 @pytest.mark.parametrize("name", ["-", "/dev/stdout"])
 def test_a_picture_goes_to_standard_output_and_nothing_else(tmp_path: Path, name: str) -> None:
     done = run(tmp_path, "render", "kerr", *SMALL, "-o", name)

@@ -9,6 +9,11 @@ from blackhole_gl.scene import Scene, fields, presets
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 
+
+def test_every_entry_of_a_shipped_preset_is_known():
+    assert presets.skipped([info.path for info in SHIPPED]) == []
+
+
 # BlackHoleGPU's physics presets (docs/sources.md); the camera's distance is given for the first only.
 S1_PHYSICS = {
     "gargantua_s1": {"hole.gravity_strength": 2.5, "disk.outer_radius": 5.0, "disk.thickness": 0.2, "camera.distance": 8.0},

@@ -14,7 +14,7 @@ for each section of the scene::
 
 Presets are layered: physics, then look, then quality, then single values; the later one wins. A picture saved by us is a
 preset too. Paths in a preset start at its own folder. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
-given and what is allowed.
+given and what is allowed; but a key that is not known, as a newer version's file may have, is left out, and `skipped` tells of it.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from .writing import dumps, picture_text, save, version
 
 __all__ = [
     "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "dumps", "from_png",
-    "load", "parse", "parse_assignments", "picture_text", "read", "save", "user_presets_dir", "version",
+    "load", "parse", "parse_assignments", "picture_text", "read", "save", "skipped", "user_presets_dir", "version",
 ]
 
 USER_GROUP = "user"
@@ -120,6 +120,15 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
     return _overridden(scene, overrides or {})
 
 
+def skipped(names_or_paths: Iterable[str | Path]) -> list[str]:
+    """What `load` leaves out of these presets because this version does not know it, a sentence each.
+
+    Raises:
+        PresetError: see `read`.
+    """
+    return [sentence for item in names_or_paths for sentence in read(item).skipped]
+
+
 def parse_assignments(assignments: Iterable[str]) -> dict[str, str]:
     """``["disk.outer_radius=12"]`` as the overrides that `load` takes; of two for one key the later wins.
 
@@ -148,7 +157,7 @@ def read(name_or_path: str | Path) -> Preset:
     """The preset of that name, or in that ``.toml`` file, or carried by that ``.png``.
 
     Raises:
-        PresetError: not found, not readable, not TOML, or an entry that a scene does not have or cannot hold.
+        PresetError: not found, not readable, not TOML, or a value that a scene cannot hold.
     """
     if isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png")):
         path, group = Path(name_or_path), ""

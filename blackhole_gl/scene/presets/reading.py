@@ -11,10 +11,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from .. import FrozenMap, Scene, fields, instances
+from ...text_files import decimal_comma
+from .. import FrozenMap, Scene, catalogue, fields, instances
 from ..catalogue import KIND, SWITCH
-from ..headers import NAMES, is_name
-from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest_key
+from ..headers import is_name
+from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest, nearest_key
 from . import paths
 
 GROUPS = ("physics", "look", "quality", "scene")
@@ -47,6 +48,7 @@ class Preset:
         time: scene time of the picture it came from, r_s/c; None for other presets.
         values: the scene's values it sets, by dotted key, checked; but those of an instance whose kind it leaves to other presets are as they
             stand in the file.
+        skipped: a sentence for each entry that this version does not know, as a newer one's file may have; the rest counts.
         source: what errors call it.
         folder: where its relative paths start; None leaves them as they are.
         text: the TOML it was made from.
@@ -59,6 +61,7 @@ class Preset:
     rank: float = 100.0
     time: float | None = None
     values: Mapping[str, Any] = field(default_factory=dict)
+    skipped: tuple[str, ...] = ()
     source: str = "preset"
     folder: Path | None = None
     text: str = field(default="", repr=False)
@@ -86,7 +89,7 @@ def parse(text: str, source: str = "preset", folder: Path | None = None) -> Pres
         folder: where its relative paths start; None leaves them as they are.
 
     Raises:
-        PresetError: not TOML, or an entry that a scene does not have or cannot hold.
+        PresetError: not TOML, or a value that a scene cannot hold.
     """
     try:
         data = tomllib.loads(text)
@@ -94,7 +97,7 @@ def parse(text: str, source: str = "preset", folder: Path | None = None) -> Pres
         raise PresetError("not TOML that can be read: nested too deeply", source=source) from None
     except ValueError as error:
         # tomllib's own errors name line and column; Python's (a number of 5000 digits, say) are ValueErrors as well
-        raise PresetError(f"not TOML: {error}", source=source) from None
+        raise PresetError(f"not TOML: {error}{_comma_in_line(text, str(error))}", source=source) from None
     return _Reader(source, text).read(data, folder)
 
 
@@ -104,6 +107,7 @@ class _Reader:
     def __init__(self, source: str, text: str):
         self._source, self._text = source, text
         self._values: dict[str, Any] = {}
+        self._skipped: list[str] = []
 
     def read(self, data: Mapping[str, Any], folder: Path | None) -> Preset:
         about: dict[str, Any] = {}
@@ -114,7 +118,7 @@ class _Reader:
                 self._section_of_instances(name, value)
             else:
                 self._walk(_quoted(name), value)
-        return Preset(**about, values=self._values, source=self._source, folder=folder, text=self._text)
+        return Preset(**about, values=self._values, skipped=tuple(self._skipped), source=self._source, folder=folder, text=self._text)
 
     def _about(self, name: str, value: Any) -> str | float:
         if name in _NUMBER_ENTRIES:
@@ -145,13 +149,13 @@ class _Reader:
         elif key in tables():
             raise self._error(key, f"got {describe(value)}; allowed is a table, [{key}]")
         else:
-            raise self._error(key, unknown_key(key))
+            self._skip(key, _hint(key))
 
     def _put(self, item: Field, value: Any) -> None:
         try:
             self._values[item.key] = item.check(value)
         except SceneError as error:
-            raise self._error(item.key, error.message, error.entry) from None
+            raise self._error(item.key, error.message + _comma_in(value), error.entry) from None
 
     def _section_of_instances(self, section: str, value: Any) -> None:
         if not isinstance(value, dict):
@@ -168,17 +172,25 @@ class _Reader:
 
     def _instance(self, place: instances.Place, entries: Mapping[str, Any]) -> None:
         """What is said of one instance; without its kind no more can be seen here than that the names may be some."""
-        wrong = next((name for name in entries if not is_name(name)), None)
-        if wrong is not None:
-            raise self._error(f"{place.path}.{_quoted(wrong)}", f"no such key; allowed are {NAMES}")
-        given = {instances.Place(place.section, place.name, name): value for name, value in entries.items()}
+        kind, kinds = entries.get(KIND), catalogue.plug_ins(instances.SLOTS[place.section])
+        known = instances.fields_of(place, kind) if isinstance(kind, str) and kind in kinds else None
+        for name in entries:
+            if known is not None and name not in known:
+                self._skip(f"{place.path}.{_quoted(name)}", nearest(name, known))
+            elif not is_name(name):
+                self._skip(f"{place.path}.{_quoted(name)}", "")
+        entries = {name: value for name, value in entries.items() if is_name(name) and (known is None or name in known)}
         if KIND in entries:
+            given = {instances.Place(place.section, place.name, name): value for name, value in entries.items()}
             try:
                 made = instances.changed(place.section, FrozenMap(), given.items())[place.name]
             except SceneError as error:
-                raise self._error(error.key, error.message, error.entry) from None
+                raise self._error(error.key, error.message + _comma_in(entries.get(error.key.rpartition(".")[2])), error.entry) from None
             entries = {name: made.kind if name == KIND else made.values[name] for name in entries}
         self._values |= {f"{place.path}.{name}": value for name, value in entries.items()}
+
+    def _skip(self, key: str, hint: str) -> None:
+        self._skipped.append(str(self._error(key, f"skipped, for this version has no such key{hint}")))
 
     def _error(self, key: str, message: str, entry: int = 0) -> PresetError:
         return PresetError(message, key=key, source=self._source, line=_line_of(key, self._text, entry))
@@ -186,15 +198,18 @@ class _Reader:
 
 def unknown_key(key: str) -> str:
     """What to say of a key that no scene has: the nearest one, and those of its table."""
-    near = nearest_key(key, [*fields(), *tables(), *instances.SLOTS])
-    hint = f"; did you mean {near}?" if near else "."
-    section = key.split(".")[0]
+    hint, section = _hint(key) or ".", key.split(".")[0]
     if section in tables():
         allowed = [known for known in fields() if known.startswith(section + ".")]
     else:
         named = (f"[{section}.NAME]" for section in instances.SLOTS)
         allowed = [*(f"[{table}]" for table in tables() if "." not in table), *named, *_TEXT_ENTRIES, *_NUMBER_ENTRIES]
     return f"no such key{hint} Allowed here are {', '.join(allowed)}"
+
+
+def _hint(key: str) -> str:
+    near = nearest_key(key, [*fields(), *tables(), *instances.SLOTS])
+    return f"; did you mean {near}?" if near else ""
 
 
 @cache
@@ -235,3 +250,14 @@ def _quoted(name: str) -> str:
 
 def _plain(name: str) -> str:
     return re.sub(r"[\s\"']", "", name)
+
+
+def _comma_in(value: Any) -> str:
+    return decimal_comma(value) if isinstance(value, str) else ""
+
+
+def _comma_in_line(text: str, message: str) -> str:
+    """A hint where tomllib's `message` is about a line of `text` whose value has a decimal comma."""
+    place = re.search(r"at line (\d+)", message)
+    line = text.split("\n")[int(place[1]) - 1] if place else ""
+    return decimal_comma(line.partition("=")[2].partition("#")[0])
