@@ -103,12 +103,12 @@ def _window() -> Finding:
 def _try_out() -> Finding:
     """What is found in the other process. Errors stay there: to know their types, this one would have to load the window's libraries."""
     try:
-        from .app import window
+        from .app import runner
     except ImportError as error:
         again = f"Install the package's dependencies again: pip install blackhole-gl; on Debian or Ubuntu also: {context.INSTALL_LINE}"
         return Finding("window", False, f"{error}. {again}")
     try:
-        return Finding("window", True, f"opens: {window.try_out()}")
+        return Finding("window", True, f"opens: {runner.try_out()}")
     except Exception as error:  # whatever stands in the way of a window is what this is to tell
         return Finding("window", False, str(error) or type(error).__name__)
 

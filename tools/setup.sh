@@ -105,6 +105,10 @@ check_system() {
     if [ "$level" = test ]; then check_test_tools; fi
 }
 
+has_all() {  # has_all PROGRAM…
+    for program in "$@"; do command -v "$program" >/dev/null 2>&1 || return 1; done
+}
+
 check_test_tools() {  # what some tests need and the rest does not: brought where it may be, and named where not
     if [ "$(uname -s)" = Linux ] && ! can_load "$python" libOSMesa.so.8 && ! apt_install libosmesa6; then
         say "libOSMesa.so.8 is missing, so the tests marked osmesa will fail. Either bring it or leave them out:" "" \
@@ -113,6 +117,12 @@ check_test_tools() {  # what some tests need and the rest does not: brought wher
     if ! command -v glslangValidator >/dev/null 2>&1 && ! apt_install glslang-tools; then
         say "glslangValidator is missing, so the tests marked glslang will fail. Either bring it or leave them out:" "" \
             "    $(apt_line glslang-tools)" "    make test PYTEST_ARGS='-m \"not glslang\"'" ""
+    fi
+    display_tools="xvfb x11-utils x11-xkb-utils xkb-data xdotool"
+    # shellcheck disable=SC2086 # a list of package names
+    if [ "$(uname -s)" = Linux ] && ! has_all Xvfb xprop setxkbmap xdotool && ! apt_install $display_tools; then
+        say "Xvfb, xprop, setxkbmap or xdotool is missing, so the tests marked display will fail. Either bring them or leave them out:" "" \
+            "    $(apt_line "$display_tools")" "    make test PYTEST_ARGS='-m \"not display\"'" ""
     fi
 }
 

@@ -17,7 +17,7 @@ import moderngl
 
 from ..resources import user_config_dir
 from ..scene import Scene, catalogue
-from . import commands, help_window, keys, overlay, preset_switch, scene_files, theme, view_scale
+from . import commands, help_window, keys, overlay, preset_switch, runner, scene_files, view_scale
 from .area import Area
 from .ending import Ending
 from .full_screen import FullScreen
@@ -25,18 +25,14 @@ from .live_chart import LiveChart
 from .mouse import Mouse
 from .opening import WindowError, open_platform
 from .panel import Panel
+from .panel_width import PanelWidth
 from .picture import Picture
 from .preparation import Preparation
 from .shortcuts import Layout, Shortcuts
 from .state import WindowState
 from .warm_up import WarmUp
 
-TITLE = "Blackhole GL"
-PANEL = "Parameters"
 SIZE = (1280, 800)
-_DOCK_SPACE = "MainDockSpace"
-_PANEL_SHARE = 0.30  # of the window's width
-_IDLE_FPS = 4.0  # often enough to notice an edited shader within a second
 _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
 _LONGEST_FRAME_S = 0.5
@@ -92,12 +88,12 @@ def run(
     """
     open_platform(null_platform)
     window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, may_idle=not null_platform)
-    params = _runner_params(window, size)
+    params = runner.parameters(window, size)
     if driver is not None:
         params.use_imgui_test_engine = True
         params.callbacks.register_tests = lambda: driver.register(window)
     with Ending() as ending:
-        _set_up(params)
+        runner.set_up(params)
         with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
             at_end.callback(immapp.manual_render.tear_down)
             at_end.callback(window.warm_up.close)
@@ -107,75 +103,10 @@ def run(
     return window.state
 
 
-def try_out() -> str:
-    """Opens a window as `run` does, but hidden, closes it after a frame of nothing, and says what draws in it. To be called in a process of its own.
-
-    Raises:
-        WindowError: see `run`.
-    """
-    described = open_platform(null_platform=False)
-    params = hello_imgui.RunnerParams()
-    params.app_window_params.hidden = True
-    params.ini_disable = True
-    params.renderer_backend_options.open_gl_options = _open_gl_options()
-    _set_up(params)
-    immapp.manual_render.render()
-    immapp.manual_render.tear_down()
-    return described
-
-
-def _set_up(params: hello_imgui.RunnerParams) -> None:
-    try:
-        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
-    except RuntimeError as error:
-        raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
-
-
 def _default_renderer(gl: moderngl.Context) -> Any:
     from ..render.frame import Renderer
 
     return Renderer(gl)
-
-
-def _runner_params(window: Window, size: tuple[int, int]) -> hello_imgui.RunnerParams:
-    params = hello_imgui.RunnerParams()
-    params.app_window_params.window_title = TITLE
-    params.app_window_params.window_geometry.size = size
-    params.ini_disable = True
-    params.imgui_window_params.default_imgui_window_type = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
-    params.renderer_backend_options.open_gl_options = _open_gl_options()
-    params.fps_idling.fps_idle = _IDLE_FPS
-    params.fps_idling.time_active_after_last_event = 0.5
-    params.fps_idling.enable_idling = False  # until the first picture is there
-    params.docking_params.main_dock_space_node_flags = (imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.auto_hide_tab_bar).value
-    params.docking_params.docking_splits = [hello_imgui.DockingSplit(_DOCK_SPACE, "Right", imgui.Dir.right, _PANEL_SHARE)]
-    panel = hello_imgui.DockableWindow(PANEL, "Right", window.draw_panel)
-    panel.imgui_window_flags = imgui.WindowFlags_.no_nav_inputs.value  # TAB belongs to the key table
-    panel.can_be_closed = False  # TAB hides it, and is the way to get it back
-    params.docking_params.dockable_windows = [panel]
-    callbacks = params.callbacks
-    callbacks.setup_imgui_config = _setup_imgui
-    callbacks.load_additional_fonts = theme.load_fonts
-    callbacks.setup_imgui_style = theme.apply
-    callbacks.post_init = window.start
-    callbacks.pre_new_frame = window.before_frame
-    callbacks.show_gui = window.frame
-    callbacks.custom_background = window.draw_picture
-    return params
-
-
-def _open_gl_options() -> hello_imgui.OpenGlOptions:
-    # Multisampling would only smooth the panel's edges, and costs a factor of 3 on software renderers.
-    return hello_imgui.OpenGlOptions(
-        glsl_version="330", major_version=3, minor_version=3, use_core_profile=True, use_forward_compat=True, anti_aliasing_samples=0
-    )
-
-
-def _setup_imgui() -> None:
-    hello_imgui.imgui_default_settings.setup_default_imgui_config()
-    # With keyboard navigation SPACE and the arrows would move a focus rectangle about the panel.
-    io = imgui.get_io()
-    io.config_flags &= ~imgui.ConfigFlags_.nav_enable_keyboard.value
 
 
 class Window:
@@ -198,6 +129,7 @@ class Window:
         self._picture: Picture | None = None
         self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
         self._mouse = Mouse()
+        self._panel_width = PanelWidth()
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -243,11 +175,11 @@ class Window:
     def before_frame(self) -> None:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
-        params.docking_params.dockable_window_of_name(PANEL).is_visible = self.state.show_panel
+        params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
         busy = self.state.is_moving or self.live_chart.busy(self.state) or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
-        params.fps_idling.fps_idle = _PREPARING_FPS if preparing else _IDLE_FPS
+        params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
         self._full_screen.set(self.state.full_screen)
 
     def frame(self) -> None:
@@ -273,6 +205,7 @@ class Window:
 
     def draw_panel(self) -> None:
         """The panel's own window."""
+        self._panel_width.keep()
         report = self.picture.report
         self._panel.draw(self.state, report.reasons if report else ())
 
@@ -318,7 +251,7 @@ class Window:
         """Where the picture goes now."""
         io = imgui.get_io()
         docking = hello_imgui.get_runner_params().docking_params
-        dock_space = docking.dock_space_id_from_name(_DOCK_SPACE)
+        dock_space = docking.dock_space_id_from_name(runner.DOCK_SPACE)
         node = imgui.internal.dock_builder_get_central_node(dock_space) if dock_space else None
         left, top, width, height = (node.pos.x, node.pos.y, node.size.x, node.size.y) if node else (0.0, 0.0, io.display_size.x, io.display_size.y)
         scale = io.display_framebuffer_scale

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from imgui_bundle import hello_imgui, imgui
 
-from blackhole_gl.app.window import PANEL, Window
+from blackhole_gl.app.runner import PANEL
+from blackhole_gl.app.window import Window
 from blackhole_gl.scene import Scene
 
 KEYS = frozenset(int(key) for key in imgui.Key)

@@ -20,7 +20,7 @@ from PIL import Image
 from blackhole_gl import plan
 from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
-from blackhole_gl.app.window import PANEL
+from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
 from blackhole_gl.scene import fields, presets
 
