@@ -111,7 +111,7 @@ def view(
         out = Path("blackhole.png").resolve()
         print("There is no display (DISPLAY is not set; under Wayland, XWayland sets it), so no window can be opened.")
         print("Rendering the scene to a picture instead …", flush=True)
-        _render(scene, (1280, 720), 0.0, out, 1, "auto")
+        _render(scene, (1280, 720), 0.0, out, scene.rays.in_stills, "auto")
         print(f"Written: {out}")
         return
     from .app import window
@@ -127,15 +127,17 @@ def render(
     set_: Settings = None,
     size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
     time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a PNG preset, or 0.", show_default=False)] = None,
-    supersample: Annotated[int, typer.Option(min=1, max=16, help="Rays a pixel along each axis.")] = 1,
+    supersample: Annotated[
+        int | None, typer.Option(min=1, max=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.", show_default=False)
+    ] = None,
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
     preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_)
     refuse_unwritable(out, (".png",), "a PNG picture")
-    _refuse_unmet(scene)
-    _render(scene, _size(size), _time(time, preset), out, supersample, backend)
+    _refuse_unmet(scene, set_)
+    _render(scene, _size(size), _time(time, preset), out, supersample or scene.rays.in_stills, backend)
 
 
 @app.command()
@@ -158,7 +160,7 @@ def trace(
     scene = _scene(preset, set_)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     listed = listed_rays.read(rays, scene)
-    _refuse_unmet(scene)
+    _refuse_unmet(scene, set_)
     if float64:
         found = listed_rays.trace_by_reference(scene, listed.rays)
     else:
@@ -198,7 +200,9 @@ def plan(
             print(f"  refined  {measured_refined(renderer, scene)}")
     for reason in made.reasons:
         print(f"  - {reason}")
-    _refuse_unmet(scene)
+    for warning in made.warnings:
+        print(f"  ! {warning}")
+    _refuse_unmet(scene, set_)
 
 
 @app.command()
@@ -260,21 +264,23 @@ def presets(
 
 
 def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
+    for former, present in preset_files.renamed(names or ()).items():
+        print(f"blackhole-gl: the preset {former} is now called {present}; `blackhole-gl presets` lists the levels of quality", file=sys.stderr)
     scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
     for sentence in preset_files.skipped(names or ()):
         print(f"blackhole-gl: {sentence}", file=sys.stderr)
     return scene
 
 
-def _refuse_unmet(scene: Scene) -> None:
-    """A stated tolerance below the floor is an error; the default one only earns a warning, so that any camera gives a picture."""
+def _refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
+    """A tolerance below the floor is an error where it was given by hand; that of a preset only earns a warning, so that any camera gives a picture."""
     from .plan import choice
 
     made = choice.choose(scene)
     if made.meets:
         return
     text = f"rays.tolerance: {scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
-    if scene.rays.tolerance != type(scene.rays)().tolerance:
+    if "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
         raise SceneError("rays.tolerance", text.partition(": ")[2])
     print(f"blackhole-gl: {text}; the nearest is used", file=sys.stderr)
 
@@ -309,7 +315,10 @@ def _renderer(backend: str):
 
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
     from .output import png
+    from .plan import plan as make_plan
 
+    for warning in make_plan(scene).warnings:
+        print(f"blackhole-gl: {warning}", file=sys.stderr)
     renderer = _renderer(backend)
     with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)

@@ -16,7 +16,7 @@ def shaders_dir() -> Path:
 
 
 def presets_dir() -> Path:
-    """The folder of the shipped presets, with one folder in it for each group (physics, look, quality, scene)."""
+    """The folder of the shipped presets, with one folder in it for each group (physics, look, quality, steps, scene)."""
     return _data_dir("presets")
 
 

@@ -78,7 +78,8 @@ def _methods(found: Findings) -> str:
         "",
         "![Error against cost, one curve a method](pictures/accuracy_methods.png)",
         "",
-        "Down and to the left is better. Finer steps go right; where a curve turns up again, rounding has taken over. L, M, H, U are the quality presets.",
+        "Down and to the left is better. Finer steps go right; where a curve turns up again, rounding has taken over. "
+        "L, M, H, U are the presets of BlackHoleGPU's steps.",
         "Open marks are refined maps, as while the camera moves; their costs are of larger pictures, see below.",
         "",
         "What 99 % of the rays keep within half a pixel at 1080p, and at what cost at least: the cheapest three methods a scene.",

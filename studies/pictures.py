@@ -27,7 +27,7 @@ _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#
 _MARKERS = {"euler": "v", "verlet": "s", "rk4": "o", "bs3": "^", "dopri5": "D", "nystrom4": "<", "nystrom5": ">", "": "X"}
 _LINES = {"fixed": (0, (1, 1)), "radius": "-", "mino": "-", "curvature": "--", "doubling": "-.", "embedded": (0, (5, 1, 1, 1, 1, 1)), "": "none"}
 QUALITIES = {"L": 0.4, "M": 0.2, "H": 0.1, "U": 0.05}
-"""κ of the quality presets Low, Medium, High and Ultra, whose scenes are traced by kerr, rk4."""
+"""κ of the presets of BlackHoleGPU's steps, Low, Medium, High and Ultra, whose scenes are traced by kerr, rk4."""
 
 
 class MatplotlibMissing(ValueError):
@@ -52,7 +52,7 @@ def library():
 
 
 def draw_methods(path: Path, rows: Sequence[Row], scenes: Sequence[ChartScene], chosen: Mapping[str, Row]) -> None:
-    """Error against cost, a panel a scene and a curve a method, with the Pareto front, the quality presets and the plan's choice.
+    """Error against cost, a panel a scene and a curve a method, with the Pareto front, the presets of published steps and the plan's choice.
 
     Args:
         chosen: the row that the plan chooses, by scene.
@@ -118,7 +118,7 @@ def _legend(pyplot, figure, rows: Sequence[Row]) -> None:
     handles += [Line2D([], [], color="grey", ls=line, label=name) for name, line in _LINES.items() if name]
     handles += [
         Line2D([], [], color="black", lw=5, alpha=0.16, label="Pareto front"),
-        Line2D([], [], ls="none", marker="$L$", color="black", label="quality presets L M H U"),
+        Line2D([], [], ls="none", marker="$L$", color="black", label="BlackHoleGPU's steps L M H U"),
         Line2D([], [], ls="none", marker="o", ms=10, mfc="none", mec="black", label="the plan's choice"),
         Line2D([], [], color="grey", lw=0.6, marker="o", ms=4.5, mfc="white", label="refined, {}×{}".format(*REFINED_SIZE)),
     ]

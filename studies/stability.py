@@ -116,7 +116,7 @@ def run(renderer: Renderer, case: Case, method: Combination, rays: int = 20_000)
 
 
 def scene_of(case: Case, method: Combination) -> Scene:
-    """The scene of one cell: the shipped reference quality, the case's values, the method."""
+    """The scene of one cell: the shipped preset `reference`, the case's values, the method."""
     return presets.load(["reference"], {"disk.outer_radius": 20.0, **case.values, **chosen(method)})
 
 

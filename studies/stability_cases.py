@@ -59,7 +59,7 @@ class Case:
         title: what is asked, in a few words.
         why: what goes wrong in a method that fails.
         measure: ``rays`` (fates, directions, crossings), ``shadow`` (the angle of its edge) or ``sweep`` (random scenes: finite and resolved).
-        values: scene values, by key, on top of the reference quality.
+        values: scene values, by key, on top of the preset `reference`.
         rays: the rays of the scene; None for the other measures.
         floor: error in rad that float32 alone may make here, or that does not count; π where fates alone are judged.
         fates: whether a wrong fate counts; not where the critical curve is nearer than float32 numbers lie apart.

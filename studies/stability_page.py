@@ -20,7 +20,7 @@ VIEWER = "viewer"
 
 EXPLANATIONS: Mapping[str, str] = {
     "m": "The model is an approximation, and this is where it ends: no integrator helps.",
-    "c": "The case asks for steps 7 to 14 times as long as the reference quality's (16 times in angle): longer than what they are to resolve.",
+    "c": "The case asks for steps 7 to 14 times as long as the preset `reference`'s (16 times in angle): longer than what they are to resolve.",
     "o": "Truncation: at these steps an integrator of first to third order errs by more than the bound. Shorter steps or a higher order mend it.",
     "f": "A Cartesian step of fixed length is as long beside the horizon as far away.",
     "t": "The step control's tolerance, at its default, allows an error above the bound in one step or sums it up over several turns.",
@@ -83,7 +83,7 @@ def _head() -> str:
 `tests/stability` fail when this page, that table and what the shaders do part ways.*
 
 {len(CASES)} cases × {len(methods())} methods. Each case has its own hole, camera and rays; each method traces them with the shader that pictures use,
-at the steps of the quality preset `reference` (κ = 0.05 in Mino time, Δt₀ = 0.14 r_s in Cartesian space) unless the case says otherwise.
+at the steps of the preset `reference` (κ = 0.05 in Mino time, Δt₀ = 0.14 r_s in Cartesian space) unless the case says otherwise.
 Judged against the float64 twin of the true space-time, and against closed forms for shadows and for the fates of random rays. `flat` is
 judged against flat space.
 

@@ -39,7 +39,7 @@ class ViewerCase:
 
 
 def _scene(**changes: object) -> Scene:
-    return presets.load(["kerr", "medium"], {key.replace("__", "."): value for key, value in changes.items()})
+    return presets.load(["kerr", "blackholegpu_medium"], {key.replace("__", "."): value for key, value in changes.items()})
 
 
 def _light(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int] = SMALL) -> np.ndarray:

@@ -56,7 +56,7 @@ def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     renderer = Renderer(create_headless())
     for shot in SHOTS:
-        renderer.render_still(presets.load([*shot.presets, "high"], dict(shot.changes)), shot.time, SIZE, SAMPLES)
+        renderer.render_still(presets.load([*shot.presets, "fine"], dict(shot.changes)), shot.time, SIZE, SAMPLES)
         path = FOLDER / f"{shot.name}.jpg"
         save(Image.fromarray(renderer.read_rgb8()), path)
         print(f"{path.relative_to(FOLDER.parents[1])}  {path.stat().st_size // 1000} KB", flush=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..scene import Playback
 from .resolution import Resolution
 
 
@@ -15,7 +16,7 @@ class Pace:
         self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
         self._took_ms = 0.0
 
-    def scale(self, target_fps: float, now: float, *, moving: bool, camera_moving: bool) -> float:
+    def scale(self, playback: Playback, now: float, *, moving: bool, camera_moving: bool) -> float:
         """Width and height of the picture begun `now` [s] over those of its area, at most 1; the rest is as for `Resolution.scale`."""
         if not moving:
             self.pause()
@@ -26,7 +27,7 @@ class Pace:
             elapsed = now - self._begun
             self._resolution.record_rest(1e3 * elapsed - self._took_ms)
         self._begun = now
-        return self._resolution.scale(target_fps, camera_moving=camera_moving, elapsed=elapsed)
+        return self._resolution.scale(playback.target_fps, camera_moving=camera_moving, elapsed=elapsed, least=playback.coarsest)
 
     def pause(self) -> None:
         """The time until the next picture says nothing."""

@@ -27,15 +27,18 @@ class Panel:
         self._filter = ""
         self._instances = InstanceGroups()
 
-    def draw(self, state: WindowState, reasons: Sequence[str]) -> None:
+    def draw(self, state: WindowState, reasons: Sequence[str], warnings: Sequence[str]) -> None:
         """Draws the panel into the current window.
 
         Args:
             reasons: why rays are traced as they are, a phrase each.
+            warnings: what they make worse than the scene asks, a sentence each.
         """
         self._pickers(state)
         self._files(state)
         _departures(state)
+        for warning in warnings:
+            _remark(warning[:1].upper() + warning[1:])
         imgui.separator()
         imgui.set_next_item_width(-1.0)
         _, self._filter = imgui.input_text_with_hint("##filter", "Find a value", self._filter)
@@ -54,8 +57,8 @@ class Panel:
         if not imgui.begin_table("pickers", 2):
             return
         _columns()
-        for group in preset_switch.LAYERED:
-            self._picker(group.capitalize(), (group,), state)
+        for label, groups in preset_switch.PICKERS.items():
+            self._picker(label, groups, state)
         if any(info.group in preset_switch.WHOLE for info in self._presets):
             self._picker("Scene", preset_switch.WHOLE, state)
         imgui.end_table()
@@ -73,7 +76,9 @@ class Panel:
             if current and current.description:
                 _wrapped_tooltip(current.description)
             return
-        for info in listed:
+        for before, info in zip((None, *listed), listed):
+            if before is not None and before.group != info.group:
+                imgui.separator()
             clicked, _ = imgui.selectable(f"{info.title}##{info.name}", info is current)
             if info.description:
                 _wrapped_tooltip(info.description)
@@ -181,9 +186,13 @@ def _departures(state: WindowState) -> None:
     """A line that says which values make this picture art; nothing when there are none."""
     names = [widgets.label_of(item.key).lower() for item in state.scene.fields().values() if widgets.departs(item, state.scene.get(item.key))]
     if names:
-        imgui.push_style_color(imgui.Col_.text, theme.DEPARTS)
-        imgui.text_wrapped("Departs from physics: " + ", ".join(names))
-        imgui.pop_style_color()
+        _remark("Departs from physics: " + ", ".join(names))
+
+
+def _remark(text: str) -> None:
+    imgui.push_style_color(imgui.Col_.text, theme.DEPARTS)
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
 
 
 def _wrapped_tooltip(text: str) -> None:

@@ -115,7 +115,7 @@ class Picture:
         step = self._readiness.step(scene, now)
         if step is None:
             return False
-        scale = COARSEST[True] if step.rehearses else self._pace.scale(scene.playback.target_fps, now, moving=moving, camera_moving=camera_moving)
+        scale = COARSEST if step.rehearses else self._pace.scale(scene.playback, now, moving=moving, camera_moving=camera_moving)
         progressive = step.rehearsal
         if progressive is None:
             progressive = camera_moving or not (exact or self.is_current and self.is_sharp)
@@ -174,7 +174,7 @@ class Picture:
             self.renderer.hit_map.forget()  # it may be half drawn
             self._made_of = None
             self._keep_if_possible()
-            self._readiness.missed(step, area.scaled(COARSEST[True]), now)
+            self._readiness.missed(step, area.scaled(COARSEST), now)
             return None
         except Exception:
             self._readiness.failed()

@@ -8,14 +8,23 @@ from ..scene import Scene, instances, presets
 from ..scene.catalogue import KIND
 from .state import WindowState
 
-LAYERED = ("physics", "look", "quality")
+PICKERS: Mapping[str, tuple[str, ...]] = {"Physics": ("physics",), "Look": ("look",), "Quality": ("quality", "steps")}
+"""The panel's pickers of presets that lie over each other, and the groups in each: a preset of either group takes the place of the other's."""
+
+LAYERED = tuple(group for groups in PICKERS.values() for group in groups)
 WHOLE = ("scene", presets.USER_GROUP)
+
+DEFAULT_QUALITY = {"quality": "automatic"}
+"""What a scene has that says nothing of quality."""
 
 
 def chosen_among(names: Iterable[str]) -> dict[str, str]:
-    """Group → name for those of `names` that are presets with a name."""
+    """Group → name for those of `names` that are presets with a name; with the default quality where they are all known to say nothing of it."""
     groups = {info.name: info.group for info in presets.available()}
-    return {groups[name]: name for name in names if name in groups}
+    names = [presets.renamed([name]).get(str(name), str(name)) for name in names]
+    found = {groups[name]: name for name in names if name in groups}
+    told = any(name not in groups or groups[name] in (*PICKERS["Quality"], presets.USER_GROUP) for name in names)
+    return found if told else {**found, **DEFAULT_QUALITY}
 
 
 def start(scene: Scene, names: Sequence[str]) -> WindowState:
@@ -29,15 +38,17 @@ def start(scene: Scene, names: Sequence[str]) -> WindowState:
 def pick(state: WindowState, group: str, name: str) -> None:
     """Puts the preset `name` of `group` into the scene.
 
-    What the new preset sets is set; what only its forerunner in the group had set goes back to what the other layers say; all else, the
+    What the new preset sets is set; what only its forerunner in the picker had set goes back to what the other layers say; all else, the
     camera under the hand among it, stays. A preset of a whole scene replaces everything.
     """
     try:
         if group in WHOLE:
-            scene, chosen = presets.load([name]), {group: name}
+            scene, chosen = presets.load([name]), chosen_among([name])
         else:
-            chosen = {key: value for key, value in state.chosen.items() if key in LAYERED} | {group: name}
-            scene = presets.read(name).over(_taken_back(state, group, name, chosen))
+            rivals = next(groups for groups in PICKERS.values() if group in groups)
+            old = [state.chosen[rival] for rival in rivals if rival in state.chosen]
+            chosen = {key: value for key, value in state.chosen.items() if key in LAYERED and key not in rivals} | {group: name}
+            scene = presets.read(name).over(_taken_back(state, old, name, chosen))
         moves_camera = group in WHOLE or any(key.startswith("camera.") for key in presets.read(name).values)
         skipped = presets.skipped([name])
     except presets.SceneError as error:
@@ -49,10 +60,9 @@ def pick(state: WindowState, group: str, name: str) -> None:
         state.tell(f"Took the preset {name}.", skipped)
 
 
-def _taken_back(state: WindowState, group: str, new: str, chosen: Mapping[str, str]) -> Scene:
-    """The scene with what only `new`'s forerunner in `group` had set as the layers `chosen` have it."""
-    old = state.chosen.get(group)
-    left = set(presets.read(old).values) - set(presets.read(new).values) if old else set()
+def _taken_back(state: WindowState, old: Iterable[str], new: str, chosen: Mapping[str, str]) -> Scene:
+    """The scene with what only `new`'s forerunners `old` had set as the layers `chosen` have it."""
+    left = {key for name in old for key in presets.read(name).values} - set(presets.read(new).values)
     if not left:
         return state.scene
     layers = presets.load([chosen[group] for group in LAYERED if group in chosen])

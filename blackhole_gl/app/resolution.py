@@ -18,8 +18,14 @@ from statistics import median, median_low
 STEPS_PER_OCTAVE = 8
 """A step changes width and height by 9 %, which is not seen as a hop."""
 
-COARSEST = {True: 0.25, False: 0.5}
-"""The least scale under a moving camera, and under one that rests before a disk that turns."""
+COARSEST = 0.25
+"""The least scale under a moving camera where a scene says nothing else (``playback.coarsest``)."""
+
+
+def coarsest(least: float, *, camera_moving: bool) -> float:
+    """The least scale where `least` is that under a moving camera: one that rests before a disk that turns has twice that."""
+    return least if camera_moving else min(2.0 * least, 1.0)
+
 
 REST_SHARE = 0.5
 """Of the frame rate aimed at, what a resting camera gives for a sharper picture: it is looked at, and the disk turns slowly."""
@@ -38,7 +44,7 @@ _REMEMBERED = 9  # frames; those beside a picture at rest that are of the same v
 _ESTIMATES = 4 * (_REMEMBERED + 1)
 _APART = 2.0  # ratio of pixels from which two frames tell the constant from the rate
 # Of a picture's cost, so that a constant found too large does not make pixels free: the share of the pixels that even the coarsest picture has.
-_LEAST_OF_PIXELS = COARSEST[True] ** 2
+_LEAST_OF_PIXELS = COARSEST**2
 
 
 @dataclass(frozen=True)
@@ -103,20 +109,21 @@ class Resolution:
         """Nothing moves: what moves next begins a movement of its own."""
         self._camera_moved = None
 
-    def scale(self, target_fps: float, *, camera_moving: bool, elapsed: float) -> float:
+    def scale(self, target_fps: float, *, camera_moving: bool, elapsed: float, least: float = COARSEST) -> float:
         """The scale of the next picture, at most 1.
 
         Args:
             target_fps: the frame rate aimed at; 0 for none: always full size.
             camera_moving: whether rays have to be traced anew.
             elapsed: seconds since the last picture.
+            least: the least scale under a moving camera.
         """
         goes_on, self._camera_moved = camera_moving == self._camera_moved, camera_moving
         if target_fps <= 0.0:
             return 1.0
         constant = self.constant_ms if camera_moving else 0.0  # not known of pictures that keep their rays
         budget = self._budget(target_fps, camera_moving, constant)
-        lowest = -STEPS_PER_OCTAVE * math.log2(COARSEST[camera_moving])
+        lowest = -STEPS_PER_OCTAVE * math.log2(coarsest(least, camera_moving=camera_moving))
         wanted = min(max(self._wanted(budget, camera_moving, constant), 0.0), lowest)
         # When a movement begins its cost is known from the last one, so the first picture takes what fits at once.
         self._glide = wanted + (self._glide - wanted) * math.exp(-elapsed / _GLIDE_S) if goes_on else wanted

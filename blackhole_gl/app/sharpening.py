@@ -5,7 +5,6 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 
-from ..render.supersampling import MOST_SAMPLES
 from ..scene import Scene
 
 # A picture at rest that takes longer than this for one more ray a pixel, two times running, is left as it is, in seconds: meanwhile the window answers
@@ -36,7 +35,7 @@ class Sharpening:
 
     def begin(self, scene: Scene) -> None:
         """There is a new picture, of `scene`. Views in false colours have no edges to smooth."""
-        self._most = MOST_SAMPLES if scene.post.view == "picture" else 1
+        self._most = scene.rays.at_rest if scene.post.view == "picture" else 1
 
     def take(self, draw: Callable[[], int]) -> bool:
         """Has one more taken by `draw`, which returns how many there are then. Returns whether there was one to take."""

@@ -207,7 +207,7 @@ class Window:
         """The panel's own window."""
         self._panel_width.keep()
         report = self.picture.report
-        self._panel.draw(self.state, report.reasons if report else ())
+        self._panel.draw(self.state, report.reasons if report else (), report.warnings if report else ())
 
     def draw_picture(self) -> None:
         """Renders what changed and fills the free part of the window."""

@@ -11,7 +11,7 @@ from ..scene import Scene, catalogue
 from ..scene.catalogue import PlugIn
 from ..scene.traits import RayModelTraits
 
-# From steps that only just hold together to steps that add more rounding than they take away; every quality preset's κ is among them.
+# From steps that only just hold together to steps that add more rounding than they take away; the κ of every preset that states one is among them.
 ANGLES = (0.8, 0.56, 0.4, 0.28, 0.2, 0.1, 0.05, 0.025)  # κ, rad
 LENGTHS = (1.2, 0.8, 0.5, 0.3, 0.15, 0.08, 0.04)  # Δt₀, r_s
 TOLERANCES = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # rad a step

@@ -51,8 +51,6 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         integrator, control = catalogue.plug_ins("integrator")[scene.rays.integrator], catalogue.plug_ins("step_control")[scene.rays.step_control]
         max_steps = scene.rays.max_steps
         stretch = max(1.0, _steps_needed(scene, model, control) / max_steps)
-        if stretch > 1.0:
-            reasons.append(f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene")
     reach = met.reach(scene)
     refine, why_refine = _refines(scene, model, chosen)
     reasons.append(why_refine)
@@ -75,7 +73,15 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) else WORLD,
         reasons=tuple(reasons),
+        warnings=_why_longer(stretch, max_steps),
     )
+
+
+def _why_longer(stretch: float, max_steps: int) -> tuple[str, ...]:
+    """What to say of steps that are `stretch` times as long as the scene asks for."""
+    if stretch <= 1.0:
+        return ()
+    return (f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene: what is near the hole may be false",)
 
 
 def _meetings(scene: Scene) -> int:

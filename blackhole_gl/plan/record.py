@@ -44,6 +44,7 @@ class Plan:
         frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
             which turns about the axis keeps its hits, where everything that rays meet is symmetric about the axis; else the ``world``.
         reasons: why, a sentence each, for people.
+        warnings: what turns out worse than the scene asks, a sentence each.
     """
 
     scene: Scene
@@ -63,6 +64,7 @@ class Plan:
     refine_px: float
     frame: Frame
     reasons: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     @property
     def azimuth_deg(self) -> float:

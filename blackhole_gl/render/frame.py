@@ -38,6 +38,7 @@ class FrameReport:
         sharpened: whether the rays traced only made a slice of a kept map exact.
         method: the plan's method in a few words.
         reasons: why the plan chose it.
+        warnings: what it makes worse than the scene asks.
     """
 
     trace_ms: float
@@ -48,6 +49,7 @@ class FrameReport:
     sharpened: bool
     method: str
     reasons: tuple[str, ...]
+    warnings: tuple[str, ...]
 
 
 class Renderer:
@@ -109,7 +111,7 @@ class Renderer:
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         plan = inputs.plan
-        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, plan.method, plan.reasons)
+        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, plan.method, plan.reasons, plan.warnings)
 
     def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
         """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd
@@ -135,7 +137,7 @@ class Renderer:
             hit_map.trace(inputs)
         mean = self._mean.add(_radiance_of(self._shaded(inputs, hit_map)))
         self._post.draw(inputs, mean, target or self._own_picture(size).frame, (0, 0, *size))
-        if self._mean.count == supersampling.MOST_SAMPLES:
+        if self._mean.count == scene.rays.at_rest:
             self._sample_map.release()
         return self._mean.count
 

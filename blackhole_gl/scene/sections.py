@@ -85,6 +85,10 @@ class Rays:
     )
     max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
+    at_rest: int = number(
+        17, 1, 17, "", "Rays a pixel that a picture takes where nothing moves, one more a frame; an even number shows as the odd one below it.",
+    )
+    in_stills: int = number(1, 1, 16, "", "Rays a pixel along each axis in pictures written by the command line.")
     refine: bool = switch(
         True,
         "While the camera moves, trace a coarse grid of exact rays and interpolate between them where the tolerance allows; at rest every "
@@ -158,6 +162,10 @@ class Playback:
         30.0, 0.0, 120.0, "fps",
         "Frame rate that a moving camera holds by drawing fewer pixels; a resting one before a turning disk keeps about half of it. At rest "
         "every pixel is drawn. 0: off, always full resolution.",
+    )
+    coarsest: float = number(
+        0.25, 0.1, 1.0, "×",
+        "Least width and height of a picture under a moving camera, over those of its area; before a disk that turns it is at least twice that.",
     )
 
 

@@ -24,7 +24,7 @@ from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 SIZE = (900, 640)
-PRESETS = ["kerr", "low"]
+PRESETS = ["kerr", "blackholegpu_low"]
 TIMEOUT_S = 200.0  # of a scenario; most take a second
 
 

@@ -15,6 +15,7 @@ class Report:
     sharpened: bool = False
     method: str = "flat colour"
     reasons: tuple = ("it is quick",)
+    warnings: tuple = ()
 
 
 class FakePrograms:

@@ -68,7 +68,7 @@ def test_the_frame_rate_is_held(full_ms, other_ms, target):
     scale = machine.run(target=target, seconds=3.0)[-1]
     if scale == 1.0:
         assert machine.frame_ms(1.0) <= 1e3 / target * STEP**2
-    elif scale == COARSEST[True]:
+    elif scale == COARSEST:
         assert machine.frame_ms(scale) >= 1e3 / target / STEP**2
     else:
         assert STEP**-2 <= (machine.frame_ms(scale) - other_ms) / (1e3 / target - other_ms) <= STEP**2
@@ -83,7 +83,7 @@ def test_without_a_target_all_is_drawn():
 
 
 def test_before_anything_is_known():
-    assert Machine(100.0).run(1)[0] == COARSEST[True], "coarse under a moving camera"
+    assert Machine(100.0).run(1)[0] == COARSEST, "coarse under a moving camera"
     assert Machine(100.0).run(1, camera_moving=False)[0] == 1.0, "whole before a resting one"
 
 
@@ -124,7 +124,7 @@ def test_the_scale_glides():
 def test_a_resting_camera_keeps_sharpness_before_frame_rate():
     """A disk that turns before a resting camera is drawn whole down to half the frame rate, and never coarser than half the size."""
     assert Machine(0.9 * 1e3 / (30.0 * REST_SHARE)).run(seconds=3.0, camera_moving=False)[-1] == 1.0
-    assert Machine(5000.0).run(20, seconds=3.0, camera_moving=False)[-1] == COARSEST[False]
+    assert Machine(5000.0).run(20, seconds=3.0, camera_moving=False)[-1] == 2.0 * COARSEST
 
 
 def test_a_movement_begins_with_what_the_last_one_found():
@@ -149,7 +149,7 @@ def test_the_frame_rate_is_held_where_pixels_are_not_all_that_costs(full_ms, con
     scales = machine.run(seconds=25.0)
     assert hops(scales[-500:]) <= 1
     frame = machine.frame_ms(scales[-1])
-    assert frame <= 1.17 * aim or scales[-1] == COARSEST[True]
+    assert frame <= 1.17 * aim or scales[-1] == COARSEST
     assert frame >= aim / 1.17 or scales[-1] == 1.0
 
 
@@ -172,7 +172,7 @@ def test_sharpness_is_not_given_up_for_nothing(constant_ms, full_ms, noise):
     pixels_ms = machine.frame_ms(scales[-1]) - constant_ms
     allowed = PIXELS_SHARE * constant_ms
     assert min((0.15 if noise else 0.5) * allowed, 0.5 * full_ms) <= pixels_ms <= 2.0 * allowed
-    assert scales[-1] > COARSEST[True] and hops(scales[60:]) <= 1
+    assert scales[-1] > COARSEST and hops(scales[60:]) <= 1
 
 
 @pytest.mark.parametrize("full_ms", [50.0, 90.0, 200.0])
@@ -188,13 +188,13 @@ def test_work_that_begins_with_a_movement_is_not_taken_for_the_constant(full_ms,
             machine.full_ms = factor * full_ms
             frames = [machine.frame_ms(scale) for scale in machine.run(35)]
             took += sum(frames)
-            fitting += len(frames) * max(machine.frame_ms(COARSEST[True]), min(1e3 / 30.0, machine.frame_ms(1.0)))
+            fitting += len(frames) * max(machine.frame_ms(COARSEST), min(1e3 / 30.0, machine.frame_ms(1.0)))
         machine.full_ms = full_ms
     assert took <= 1.1 * fitting
 
 
 def test_pixels_that_cost_much_are_not_drawn_where_the_constant_exceeds_the_frame():
-    assert Machine(1000.0, constant_ms=40.0).move_and_rest().run(seconds=5.0)[-1] == COARSEST[True]
+    assert Machine(1000.0, constant_ms=40.0).move_and_rest().run(seconds=5.0)[-1] == COARSEST
 
 
 @pytest.mark.parametrize("constant_ms", [0.0, 10.0, 20.0])

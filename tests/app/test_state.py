@@ -101,6 +101,29 @@ def test_what_only_the_old_look_said_goes_with_it(state, tmp_path):
     assert state.scene.post.exposure == before
 
 
+@pytest.mark.parametrize("name, group", [(info.name, info.group) for info in presets.available() if info.group in ("quality", "steps")])
+def test_any_quality_can_be_left_again(state, name, group):
+    rays, coarsest = state.scene.rays, state.scene.playback.coarsest
+    preset_switch.pick(state, group, name)
+    assert preset_switch.chosen_among(["kerr", name]) == {"physics": "kerr", group: name}
+    preset_switch.pick(state, "quality", "automatic")
+    assert (state.scene.rays, state.scene.playback.coarsest) == (rays, coarsest)
+    assert state.chosen["quality"] == "automatic" and "steps" not in state.chosen
+
+
+def test_steps_stated_by_hand_take_the_place_of_a_level(state):
+    preset_switch.pick(state, "quality", "finest")
+    preset_switch.pick(state, "steps", "blackholegpu_low")
+    assert state.scene.rays.tolerance == 0.5 and state.scene.rays.max_steps == 128
+    assert "quality" not in state.chosen
+
+
+def test_automatic_is_there_where_nothing_says_otherwise():
+    assert preset_switch.chosen_among(["kerr"]) == {"physics": "kerr", "quality": "automatic"}
+    assert preset_switch.chosen_among(["kerr", "low"]) == {"physics": "kerr", "steps": "blackholegpu_low"}
+    assert preset_switch.chosen_among(["kerr", "mine.png"]) == {"physics": "kerr"}
+
+
 def test_every_shipped_preset_can_be_picked(state):
     for info in presets.available():
         preset_switch.pick(state, info.group, info.name)
@@ -112,7 +135,7 @@ def test_a_whole_scene_replaces_all(state):
     state.change({"post.exposure": 2.0})
     preset_switch.pick(state, "scene", "luminet_1979")
     assert state.scene == presets.load(["luminet_1979"]) == state.home
-    assert state.chosen == {"scene": "luminet_1979"}
+    assert state.chosen == {"scene": "luminet_1979", "quality": "automatic"}
 
 
 def test_missing_preset_is_a_notice(state):

@@ -36,16 +36,16 @@ class Shot:
 
 
 SHOTS = {
-    "kerr": Shot(("kerr", "high")),
-    "kerr_ten_hours_later": Shot(("kerr", "high"), time=144000.0),
-    "schwarzschild_smooth": Shot(("schwarzschild", "smooth", "high")),
-    "kerr_0998_85": Shot(("kerr_0998_85", "high")),
-    "particle_storm": Shot(("kerr_06", "particle_storm", "high"), {"camera.inclination_deg": 60.0}),
-    "m87_like": Shot(("m87_like", "minimal_bloom", "high")),
+    "kerr": Shot(("kerr", "fine")),
+    "kerr_ten_hours_later": Shot(("kerr", "fine"), time=144000.0),
+    "schwarzschild_smooth": Shot(("schwarzschild", "smooth", "fine")),
+    "kerr_0998_85": Shot(("kerr_0998_85", "fine")),
+    "particle_storm": Shot(("kerr_06", "particle_storm", "fine"), {"camera.inclination_deg": 60.0}),
+    "m87_like": Shot(("m87_like", "minimal_bloom", "fine")),
     "thin_disk": Shot(("thin_disk",)),
-    "gargantua_as_filmed": Shot(("gargantua_as_filmed", "high")),
-    "luminet_1979": Shot(("luminet_1979", "high")),
-    "sky_about_a_shadow": Shot(("kerr_0998_85", "high"), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0}),
+    "gargantua_as_filmed": Shot(("gargantua_as_filmed", "fine")),
+    "luminet_1979": Shot(("luminet_1979", "fine")),
+    "sky_about_a_shadow": Shot(("kerr_0998_85", "fine"), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0}),
     "flat": Shot(("kerr",), {"rays.lensing": False}),
 }
 

@@ -94,7 +94,7 @@ def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Con
 
 
 def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = presets.load(["kerr", "medium"], {"rays.model": "kerr"})  # a method stated in full
+    scene = presets.load(["kerr", "blackholegpu_medium"], {"rays.model": "kerr"})  # a method stated in full
     renderer.render(scene, 0.0, (16, 9))
     compiled = []
     compose = renderer.programs._compose

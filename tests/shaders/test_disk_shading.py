@@ -51,7 +51,7 @@ def test_mirrored_holes_give_mirrored_pictures(light) -> None:
 
 
 def test_white_light_has_the_luminance_of_the_black_bodies(light) -> None:
-    """The fits of the colours keep luminance 1 but for the six digits of their weights; half floats: 1e-3."""
+    """The fits of the colours keep luminance 1 but for the six digits of their weights; both are half floats, good to 1e-3."""
     coloured, white = light(), light(disk__colour="white")
     assert np.all(white == white[..., :1])
     assert np.any(coloured[..., 0] > 1.5 * coloured[..., 2])

@@ -53,7 +53,7 @@ def test_a_camera_inside_the_horizon_is_refused(renderer: Renderer, model: str, 
 @pytest.mark.parametrize("model", ["kerr", "schwarzschild"])
 def test_hardly_any_light_leaves_just_outside_the_horizon(renderer: Renderer, model: str) -> None:
     """At 1.0001 r_s all but 1.5° about the outward direction is black, for every step that a preset may ask for."""
-    for quality in ("low", "medium", "reference"):
+    for quality in ("blackholegpu_low", "blackholegpu_medium", "reference"):
         scene = presets.load(["kerr", quality], {"rays.model": model, "hole.spin": 0.0, "camera.distance": 1.0001, "camera.fov_deg": 150.0})
         renderer.render(scene, 0.0, (48, 27))
         assert np.all(renderer.hits().fate == 2)

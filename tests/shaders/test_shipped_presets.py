@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from blackhole_gl.plan import Plan, plan
+from blackhole_gl.render import diagnostics
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, presets
 
@@ -13,7 +16,8 @@ SIZE = (320, 180)
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 WHOLE = [info.name for info in SHIPPED if info.group in ("physics", "scene")]
 LOOKS = [info.name for info in SHIPPED if info.group == "look"]
-QUALITIES = [info.name for info in SHIPPED if info.group == "quality"]
+QUALITIES = [info.name for info in SHIPPED if info.group in ("quality", "steps")]
+SMALL = (160, 90)
 
 
 def assert_sound(renderer: Renderer, scene: Scene) -> None:
@@ -55,12 +59,37 @@ def test_qualities(renderer: Renderer, model: str, quality: str) -> None:
 
 
 @pytest.mark.parametrize("name", WHOLE)
-def test_no_preset_leaves_a_ray_unresolved_at_the_coarsest_quality(renderer: Renderer, name: str) -> None:
-    renderer.render(presets.load([name, "low"]), 0.0, SIZE)
+def test_no_preset_leaves_a_ray_unresolved_at_the_coarsest_steps(renderer: Renderer, name: str) -> None:
+    renderer.render(presets.load([name, "blackholegpu_low"]), 0.0, SIZE)
     assert np.count_nonzero(renderer.hits().fate == 0) == 0
 
 
-MIRRORED = [(name, "medium") for name in WHOLE] + [("kerr_0998_85", quality) for quality in QUALITIES]
+@pytest.mark.parametrize("name", WHOLE)
+def test_no_quality_draws_a_wrong_fate_or_the_plan_says_so(renderer: Renderer, name: str) -> None:
+    """Against the most accurate method, beyond a pixel of the critical curve; levels of quality have no excuse."""
+    wrong = {}
+    for quality in QUALITIES:
+        made = plan(presets.load([name, quality]))
+        exact = _fates(renderer, diagnostics.most_accurate(made))
+        around = np.lib.stride_tricks.sliding_window_view(exact, (3, 3))
+        clear = around.min(axis=(2, 3)) == around.max(axis=(2, 3))
+        wrong[quality] = np.count_nonzero(clear & (_fates(renderer, made) != exact)[1:-1, 1:-1])
+        assert wrong[quality] == 0 or made.warnings, quality
+    assert not any(wrong[info.name] for info in SHIPPED if info.group == "quality")
+
+
+def _fates(renderer: Renderer, made: Plan) -> np.ndarray:
+    renderer.hit_map.trace(FrameInputs.whole(made, 0.0, SMALL))
+    return renderer.hits().fate
+
+
+def test_steps_that_are_lengthened_and_err_are_told(renderer: Renderer) -> None:
+    report = renderer.render(presets.load(["gargantua_s1", "blackholegpu_low"]), 0.0, SMALL)
+    assert "3.87 times longer than asked" in report.warnings[0] and "false" in report.warnings[0]
+    assert not renderer.render(presets.load(["gargantua_s1"]), 0.0, SMALL).warnings
+
+
+MIRRORED = [(name, "blackholegpu_medium") for name in WHOLE] + [("kerr_0998_85", quality) for quality in QUALITIES]
 
 
 @pytest.mark.parametrize("name, quality", MIRRORED)

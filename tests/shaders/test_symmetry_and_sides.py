@@ -50,7 +50,7 @@ def test_without_doppler_both_sides_are_alike(renderer: Renderer) -> None:
 
 @pytest.mark.parametrize("spin", [0.9, -0.9])
 def test_the_flat_side_of_the_shadow_is_the_bright_side(renderer: Renderer, spin: float) -> None:
-    scene = presets.load(["kerr", "medium"], {"hole.spin": spin, "camera.inclination_deg": 85.0})
+    scene = presets.load(["kerr", "blackholegpu_medium"], {"hole.spin": spin, "camera.inclination_deg": 85.0})
     right_edge, left_edge = shadow_edge(renderer, scene, np.array([0.0, np.pi]))
     left, right = halves(renderer, ["kerr"], {"hole.spin": spin, "camera.inclination_deg": 85.0})
     bright_is_left = left > right

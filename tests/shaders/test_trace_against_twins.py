@@ -118,7 +118,7 @@ def test_coarse_fixed_steps_do_not_tunnel_through_the_horizon(renderer: Renderer
     """Steps of 1 to 2 r_s lose these rays in other viewers. Ours are captured with the coarsest preset shipped."""
     psi = np.arcsin(impact * np.sqrt(1.0 - 1.0 / distance) / distance)
     rays = np.stack([np.full(16, psi), 2.0 * np.pi * np.arange(16) / 16], axis=-1)
-    scene = presets.load(["schwarzschild", "low"], {"camera.distance": distance})
+    scene = presets.load(["schwarzschild", "blackholegpu_low"], {"camera.distance": distance})
     assert np.all(listed_rays.trace_by_shader(renderer, scene, rays).fate == 2)
 
 

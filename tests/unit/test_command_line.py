@@ -20,7 +20,7 @@ from blackhole_gl.scene import presets
 
 ROOT = Path(__file__).resolve().parents[2]
 PNG = b"\x89PNG\r\n\x1a\n"
-SMALL = ["--preset", "low", "--size", "32x18"]
+SMALL = ["--preset", "draft", "--size", "32x18"]
 ENCODINGS = {
     "utf-8": {"PYTHONIOENCODING": "utf-8"},
     "cp1252": {"PYTHONIOENCODING": "cp1252"},
@@ -69,6 +69,13 @@ def test_what_a_newer_version_has_is_told_and_the_rest_is_used(tmp_path: Path) -
     assert shown.returncode == 0 and b"spin = 0.25" in shown.stdout and shown.stderr.count(b"hole.charge: skipped") == 1
     mistyped = run(tmp_path, "plan", "-s", "hole.spni=0.5")
     assert mistyped.returncode == 2 and b"--set: hole.spni: no such key; did you mean hole.spin?" in mistyped.stderr
+
+
+def test_presets_of_former_names_open_with_a_note_and_steps_longer_than_asked_are_told(tmp_path: Path) -> None:
+    done = run(tmp_path, "plan", "gargantua_s1", "low")
+    assert done.returncode == 0
+    assert b"the preset low is now called blackholegpu_low" in done.stderr
+    assert b"! steps are 3.87 times longer than asked" in done.stdout
 
 
 @pytest.mark.parametrize("name", ["-", "/dev/stdout"])

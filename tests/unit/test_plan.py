@@ -53,7 +53,7 @@ def test_steps_are_stretched_where_too_few_are_allowed(model):
     made = planned(rays__model=model, rays__max_steps=8, rays__step_angle=0.05, rays__step_length=0.05)
     assert made.max_steps == 8
     assert made.step_angle > 0.05 and made.step_length > 0.05
-    assert any("times longer than asked" in reason for reason in made.reasons)
+    assert any("times longer than asked" in warning for warning in made.warnings)
     roomy = planned(rays__model=model, rays__max_steps=30000)
     assert (roomy.step_angle, roomy.step_length) == (0.2, 0.1)
 
@@ -150,6 +150,6 @@ def test_what_was_not_measured_is_refined_unless_its_rays_cost_nothing(monkeypat
 
 
 def test_a_step_control_that_gave_way_is_not_the_one_looked_up(monkeypatch):
-    """The quality presets state one for models that march in Cartesian steps."""
+    """Presets of published steps state one for models that march in Cartesian steps."""
     monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(0.1, 2.1, 4.4) if scene.rays.step_control == "mino" else None)
     assert "2.1 flat frames" in _moving(planned(rays__model="kerr", rays__step_control="fixed").reasons)

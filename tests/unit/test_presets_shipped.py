@@ -1,9 +1,11 @@
 """The presets that come with the program: each loads, and the tables they were made from are in them."""
 
 import math
+from pathlib import Path
 
 import pytest
 
+from blackhole_gl.plan import choice, plan
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, fields, presets
 
@@ -32,13 +34,16 @@ S1_LOOKS = {
     "minimal_bloom": (0.52, 12000, 0.88, 0.85, 0.22, 0.55, 0.30, 0.85, 0.95),
 }
 
-# BlackHoleGPU's quality presets (steps, length, adaptive or not); the angular steps and `reference` are ours.
-QUALITIES = {
+# BlackHoleGPU's quality presets (steps, length, adaptive or not); the angular steps are ours.
+S1_STEPS = {
     "low": (128, 0.15, "fixed", 0.4),
     "medium": (192, 0.12, "radius", 0.2),
     "high": (256, 0.10, "radius", 0.1),
     "ultra": (512, 0.08, "radius", 0.05),
 }
+
+LEVELS = [info.name for info in SHIPPED if info.group == "quality"]
+WHOLE = [info.name for info in SHIPPED if info.group in ("physics", "scene")]
 
 # a*, inclination in degrees
 PHYSICAL = {"schwarzschild": (0.0, 80.0), "kerr_06": (0.6, None), "kerr_0998_85": (0.998, 85.0), "m87_like": (0.9, 17.0)}
@@ -56,11 +61,12 @@ def test_names_are_unique_and_those_that_scripts_rely_on_are_there():
     assert len(set(names)) == len(names)
     groups = {info.name: info.group for info in SHIPPED}
     assert {groups[name] for name in ("schwarzschild", "kerr")} == {"physics"}
-    assert {groups[name] for name in ("low", "medium", "high", "ultra", "reference")} == {"quality"}
+    assert groups["automatic"] == "quality" and groups["reference"] == "steps"
 
 
 def test_lists_are_in_order_of_rank():
-    assert [info.name for info in SHIPPED if info.group == "quality"] == ["low", "medium", "high", "ultra", "reference"]
+    assert LEVELS == ["automatic", "draft", "light", "fine", "finest"]
+    assert [info.name for info in SHIPPED if info.group == "steps"] == [*(f"blackholegpu_{name}" for name in S1_STEPS), "reference"]
     assert [info.group for info in SHIPPED] == sorted((info.group for info in SHIPPED), key=presets.GROUPS.index)
 
 
@@ -77,10 +83,46 @@ def test_looks_of_s1(name):
     assert tuple(said[key] for key in S1_LOOK_KEYS) == S1_LOOKS[name]
 
 
-@pytest.mark.parametrize("name", QUALITIES)
-def test_qualities_of_s1(name):
-    rays = presets.load([name]).rays
-    assert (rays.max_steps, rays.step_length, rays.step_control, rays.step_angle) == QUALITIES[name]
+@pytest.mark.parametrize("name", S1_STEPS)
+def test_steps_of_s1_are_found_by_their_former_names_too(name):
+    rays = presets.load([f"blackholegpu_{name}"]).rays
+    assert (rays.max_steps, rays.step_length, rays.step_control, rays.step_angle) == S1_STEPS[name]
+    assert presets.load([name]).rays == rays
+    assert presets.renamed(["kerr", name, "automatic", Path("low"), "low.toml"]) == {name: f"blackholegpu_{name}"}
+
+
+def test_automatic_is_what_a_scene_has_that_says_nothing_of_quality():
+    bare = Scene()
+    assert {key: bare.get(key) for key in presets.read("automatic").values} == presets.read("automatic").values
+
+
+def test_every_level_says_what_the_others_and_the_presets_of_steps_say():
+    """So that picking one leaves nothing of what was there before."""
+    said = {name: set(presets.read(name).values) for name in LEVELS}
+    steps = {key for info in SHIPPED if info.group == "steps" for key in presets.read(info.name).values}
+    assert all(keys == said["automatic"] and steps <= keys for keys in said.values())
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("name", WHOLE)
+def test_no_level_of_quality_is_beaten_by_automatic(name, level):
+    """In error and in cost at once, by what the chart measured; where it measured nothing, all levels take the same steps."""
+    scene, automatic = presets.load([name, level]), presets.load([name])
+    assert choice.is_open(scene)
+    made, other = choice.choose(scene), choice.choose(automatic)
+    if other.chosen is None:
+        assert plan(scene).method == plan(automatic).method
+        return
+    assert made.meets and made.chosen.error_px <= scene.rays.tolerance
+    assert made.chosen.error_px <= other.chosen.error_px or made.chosen.cost <= other.chosen.cost
+    assert not plan(scene).warnings
+
+
+def test_levels_cost_more_and_err_less_from_draft_to_finest():
+    rays = [presets.load(["kerr", name]).rays for name in ("draft", "light", "automatic", "fine", "finest")]
+    assert [level.tolerance for level in rays] == sorted((level.tolerance for level in rays), reverse=True)
+    for spent in ("at_rest", "in_stills"):
+        assert [getattr(level, spent) for level in rays] == sorted(getattr(level, spent) for level in rays)
 
 
 @pytest.mark.parametrize("name", PHYSICAL)
@@ -92,8 +134,8 @@ def test_physical_presets_are_physics(name):
     assert all(item.physical is None or scene.get(key) == item.physical for key, item in fields().items())
 
 
-@pytest.mark.parametrize("group, sections", [("look", {"disk", "post", "sky"}), ("quality", {"rays"})])
-def test_looks_and_qualities_leave_the_physics_alone(group, sections):
+@pytest.mark.parametrize("group, sections", [("look", {"disk", "post", "sky"}), ("quality", {"rays", "playback"}), ("steps", {"rays"})])
+def test_looks_qualities_and_steps_leave_the_physics_alone(group, sections):
     for info in SHIPPED:
         if info.group == group:
             assert {key.split(".")[0] for key in presets.read(info.name).values} <= sections

@@ -12,7 +12,7 @@ for each section of the scene::
     [things.moon]           # a named instance; a preset layered over this one may change it without saying its kind again
     kind = "sphere"
 
-Presets are layered: physics, then look, then quality, then single values; the later one wins. A picture saved by us is a
+Presets are layered: physics, then look, then quality, or steps stated by hand instead, then single values; the later one wins. A picture saved by us is a
 preset too. Paths in a preset start at its own folder. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
 given and what is allowed; but a key that is not known, as a newer version's file may have, is left out, and `skipped` tells of it.
 """
@@ -37,13 +37,13 @@ from .writing import dumps, picture_text, save, version
 
 __all__ = [
     "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "dumps", "from_png",
-    "load", "parse", "parse_assignments", "picture_text", "read", "save", "skipped", "user_presets_dir", "version",
+    "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir", "version",
 ]
 
 USER_GROUP = "user"
 DEFAULT_PRESETS = ("kerr",)
 # What a preset of these groups leaves unsaid is the default preset's, not the bare scene's.
-_PARTIAL_GROUPS = ("look", "quality")
+_PARTIAL_GROUPS = ("look", "quality", "steps")
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,9 @@ def _find(name: str) -> tuple[Path, str]:
     for known, path, group in named:
         if known == name:
             return path, group
+    for _, path, group in named:
+        if name and group and read(path).formerly == name:
+            return path, group
     names = sorted({known for known, _, _ in named})
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.4)
     hint = f"; did you mean {near[0]}?" if near else "."
@@ -100,7 +103,7 @@ def _find(name: str) -> tuple[Path, str]:
 def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None) -> Scene:
     """The scene that the presets say, each over the one before it, and `overrides` over all.
 
-    Where nothing but looks and qualities is named, they lie over `DEFAULT_PRESETS`.
+    Where nothing but looks, qualities and steps is named, they lie over `DEFAULT_PRESETS`.
 
     Args:
         names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``).
@@ -127,6 +130,21 @@ def skipped(names_or_paths: Iterable[str | Path]) -> list[str]:
         PresetError: see `read`.
     """
     return [sentence for item in names_or_paths for sentence in read(item).skipped]
+
+
+def renamed(names_or_paths: Sequence[str | Path]) -> dict[str, str]:
+    """Former → present name of those of `names_or_paths` that are former names of presets.
+
+    Raises:
+        PresetError: see `read`.
+    """
+    found = {}
+    for name in names_or_paths:
+        if isinstance(name, str) and not _is_path(name):
+            path, _ = _find(name)
+            if path.stem != name:
+                found[name] = path.stem
+    return found
 
 
 def parse_assignments(assignments: Iterable[str]) -> dict[str, str]:
@@ -159,10 +177,10 @@ def read(name_or_path: str | Path) -> Preset:
     Raises:
         PresetError: not found, not readable, not TOML, or a value that a scene cannot hold.
     """
-    if isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png")):
+    if _is_path(name_or_path):
         path, group = Path(name_or_path), ""
     else:
-        path, group = _find(name_or_path)
+        path, group = _find(str(name_or_path))
     source = str(path)
     try:
         text = png.read_scene_text(path) if path.suffix.lower() == ".png" else read_text(path)
@@ -172,6 +190,10 @@ def read(name_or_path: str | Path) -> Preset:
         raise PresetError(str(error), source=source) from None
     preset = parse(text, source, path.absolute().parent)
     return replace(preset, group=group or preset.group)
+
+
+def _is_path(name_or_path: str | Path) -> bool:
+    return isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png"))
 
 
 def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:

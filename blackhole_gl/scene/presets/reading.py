@@ -18,8 +18,8 @@ from ..headers import is_name
 from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest, nearest_key
 from . import paths
 
-GROUPS = ("physics", "look", "quality", "scene")
-_TEXT_ENTRIES = ("title", "description", "group", "version")
+GROUPS = ("physics", "look", "quality", "steps", "scene")
+_TEXT_ENTRIES = ("title", "description", "group", "formerly", "version")
 _NUMBER_ENTRIES = ("rank", "time")
 
 
@@ -44,6 +44,7 @@ class Preset:
 
     Attributes:
         group: one of `GROUPS`, or empty.
+        formerly: the name it had, by which it is still found; empty where it had no other.
         rank: place in lists of its group, smallest first.
         time: scene time of the picture it came from, r_s/c; None for other presets.
         values: the scene's values it sets, by dotted key, checked; but those of an instance whose kind it leaves to other presets are as they
@@ -57,6 +58,7 @@ class Preset:
     title: str = ""
     description: str = ""
     group: str = ""
+    formerly: str = ""
     version: str = ""
     rank: float = 100.0
     time: float | None = None
