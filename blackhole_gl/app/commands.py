@@ -148,4 +148,5 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "panel": flip("show_panel"),
     "overlay": flip("show_overlay"),
     "chart": flip("show_chart"),
+    "paths": flip("show_paths"),
 }

@@ -16,6 +16,7 @@ _MOUSE = (
     ("Wheel, two fingers", "Move closer or away"),
     ("Middle drag", "Move closer (up) or away (down)"),
     ("Right drag", "Look around"),
+    ("Click, with the path view open", "Show the ray of that pixel"),
     ("Double-click a name", "Reset the value"),
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),

@@ -14,11 +14,12 @@ class Mouse:
 
     def __init__(self) -> None:
         self._button: imgui.MouseButton_ | None = None
+        self._moved = False
 
     @property
     def drags(self) -> bool:
-        """Whether the picture is being dragged, by whichever button."""
-        return self._button is not None
+        """Whether the picture is being dragged, by whichever button: one that is pressed and let go in one place moves nothing."""
+        return self._button is not None and self._moved
 
     def poll(self, height: float) -> tuple[Way, Way, Way, float]:
         """The ways dragged in this frame with the left, the right and the middle button, and the wheel's notches. Call once in each frame.
@@ -32,9 +33,10 @@ class Mouse:
             self._button = None
         begun = next((button for button in _BUTTONS if imgui.is_mouse_clicked(button)), None) if over_picture and self._button is None else None
         if begun is not None:
-            self._button = begun
+            self._button, self._moved = begun, False
         # In the frame of the click the mouse may have come from anywhere.
         moves = begun is None and height >= 1.0
         way = (io.mouse_delta.x / height, io.mouse_delta.y / height) if moves else (0.0, 0.0)
+        self._moved |= any(way)
         left, right, middle = (way if button == self._button else (0.0, 0.0) for button in _BUTTONS)
         return left, right, middle, io.mouse_wheel if over_picture else 0.0

@@ -34,7 +34,7 @@ def set_up(params: hello_imgui.RunnerParams) -> None:
         WindowError: it cannot be.
     """
     try:
-        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True))
+        immapp.manual_render.setup_from_runner_params(params, immapp.AddOnsParams(with_implot=True, with_implot3d=True))
     except RuntimeError as error:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
 

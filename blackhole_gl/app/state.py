@@ -54,6 +54,7 @@ class WindowState:
     show_help: bool = False
     show_overlay: bool = True
     show_chart: bool = False
+    show_paths: bool = False
     full_screen: bool = False
     picture_wanted: bool = False
     file: str = "scene.toml"

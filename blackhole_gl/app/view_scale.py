@@ -28,7 +28,7 @@ def draw(state: WindowState, corner: overlay.Corner, width: float) -> None:
     imgui.text_unformatted(view.title)
     imgui.pop_text_wrap_pos()
     if view.scale is not None:
-        _bar(view.scale, length, em)
+        bar(view.scale, length, em)
     for meaning, colour in view.legend:
         _legend_row(meaning, colour, em)
     imgui.end()
@@ -40,7 +40,8 @@ def tick_text(scale: Scale, index: int) -> str:
     return f"{text} {scale.unit}" if scale.unit and index == len(scale.ticks) - 1 else text
 
 
-def _bar(scale: Scale, length: float, em: float) -> None:
+def bar(scale: Scale, length: float, em: float) -> None:
+    """A scale's colours and numbers, `length` wide, in the current window."""
     left, top = imgui.get_cursor_screen_pos().x, imgui.get_cursor_screen_pos().y
     canvas, bottom = imgui.get_window_draw_list(), top + 0.8 * em
     ends = [_code(colour) for colour in scale.colours(_PIECES + 1)]

@@ -26,6 +26,7 @@ from .mouse import Mouse
 from .opening import WindowError, open_platform
 from .panel import Panel
 from .panel_width import PanelWidth
+from .path_view import PathView
 from .picture import Picture
 from .preparation import Preparation
 from .shortcuts import Layout, Shortcuts
@@ -133,6 +134,7 @@ class Window:
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
+        self.path_view = PathView()
         self.warm_up = WarmUp()
         self._may_idle = may_idle
         self._next_reload = 0.0
@@ -176,7 +178,7 @@ class Window:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
-        busy = self.state.is_moving or self.live_chart.busy(self.state) or self._has_more_to_draw()
+        busy = self.state.is_moving or self.live_chart.busy(self.state) or self.path_view.busy or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
@@ -202,6 +204,7 @@ class Window:
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
+        self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
 
     def draw_panel(self) -> None:
         """The panel's own window."""
@@ -217,6 +220,7 @@ class Window:
         window = self._gl.detect_framebuffer()
         self._render(view.area, window)
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
+        self.path_view.advance(self._gl, self.picture.renderer)
         self.picture.draw(window, view.area)
 
     # --- parts of a frame ---

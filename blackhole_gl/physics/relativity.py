@@ -7,7 +7,7 @@ screen coordinates in M, spin a* in [-1, 1]. Inside the functions M = 1. Angles 
 
 Sources: Bardeen 1973 (*Black Holes*, Les Houches) [B73]; Bardeen, Press & Teukolsky 1972 (ApJ 178, 347) [BPT];
 Carter 1968 (Phys. Rev. 174, 1559); Synge 1966 (MNRAS 131, 463); Darwin 1959 (Proc. R. Soc. A 249, 180);
-Carlson 1995 (Numer. Algorithms 10, 13); Keeton & Petters 2005 (PRD 72, 104006).
+Carlson 1995 (Numer. Algorithms 10, 13); Keeton & Petters 2005 (PRD 72, 104006); Teo 2003 (Gen. Relativ. Gravit. 35, 1909) [T03].
 """
 
 from __future__ import annotations
@@ -236,6 +236,25 @@ def spherical_photon_orbit(s: ArrayLike, spin: ArrayLike) -> tuple[Array, Array]
     a, s = np.asarray(spin, dtype=np.float64), np.asarray(s, dtype=np.float64)
     r = 3.0 + a * s
     return -(r * r * s + a * r + a) / (r - 1.0), r**3 * (4.0 - r * s * s) / (r - 1.0) ** 2
+
+
+def photon_shell(spin: float, samples: int = 65) -> tuple[Float[Array, " samples"], Float[Array, " samples"]]:
+    """Radii in r_s of the spherical photon orbits from the prograde to the retrograde one, and the cosine 0 ... 1 of the polar angle that each reaches [T03].
+
+    Of the two edges of the region that such orbits fill, it is the one above the equator. At a* = 0 they all lie on one sphere and are told apart by
+    the angle alone.
+    """
+    if spin == 0.0:
+        return np.full(samples, 1.5), np.sin(np.linspace(0.0, np.pi, samples))
+    ends = [float(_photon_orbit_offset(np.asarray(x))) / spin for x in (abs(spin), -abs(spin))]
+    turn = np.linspace(0.0, np.pi, samples)
+    s = 0.5 * (ends[0] + ends[1]) + 0.5 * (ends[0] - ends[1]) * np.cos(turn)
+    lam, eta = spherical_photon_orbit(s, spin)
+    eta = np.maximum(eta, 0.0)  # at its ends it is 0, up to rounding
+    b = eta + lam * lam - spin * spin
+    # The root in 0 ... 1 of a^2 u^2 + b u - eta = 0, u = cos^2(theta), without cancellation.
+    u = 2.0 * eta / (b + np.sqrt(b * b + 4.0 * spin * spin * eta))
+    return 1.5 + 0.5 * spin * s, np.sqrt(np.clip(u, 0.0, 1.0))
 
 
 def critical_curve(spin: float, theta: float, samples: int = 512) -> tuple[Float[Array, " samples"], Float[Array, " samples"]]:

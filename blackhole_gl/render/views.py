@@ -115,6 +115,18 @@ def view_of(scene: Scene) -> View | None:
     return _VIEWS.get(scene.post.view)
 
 
+def scale_of(view: str) -> Scale:
+    """The colour scale of the view of that name.
+
+    Raises:
+        ValueError: it has none.
+    """
+    scale = _VIEWS[view].scale if view in _VIEWS else None
+    if scale is None:
+        raise ValueError(f"got the view {view!r}; allowed is one whose colours stand for values")
+    return scale
+
+
 def linear_light(colours: np.ndarray) -> np.ndarray:
     """sRGB values (…, 3) in 0…1 as linear light (IEC 61966-2-1)."""
     colours = np.asarray(colours, float)

@@ -144,6 +144,39 @@ bool march_pauses(March m) {
 #endif
 }
 
+March march_start(Orbit orbit, State first) {
+    March m;
+    m.s = m.next = first;
+    m.h = 0.0;
+#ifdef STEP_ADAPTS
+    m.trial = ray_plain_step(orbit, first);
+#endif
+    m.steps = 0;
+    m.fate = UNRESOLVED;
+    m.crossed = false;
+#if MEETINGS
+    m.near = false;
+#endif
+    return m;
+}
+
+// One step, tried or taken.
+void march_once(Orbit orbit, inout March m) {
+#ifdef RAY_RECHARTS
+    m.next = ray_recharted(m.s, m.next);
+#endif
+    m.s = m.next;
+#ifdef STEP_ADAPTS
+    m.next = adapted_step(orbit, m.s, m.trial, m.h);
+    m.next = completed(orbit, m.s, m.h, m.next);
+#else
+    m.h = step_size(orbit, m.s);
+    m.next = march_step(orbit, m.s, m.h);
+#endif
+    ++m.steps;
+    m.fate = ray_fate(orbit, m.next);
+}
+
 // Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: every branch of a loop's body runs (docs/llvmpipe.md) in
 // every round, so what happens once a ray or once a crossing stands outside it.
 void march_on(Orbit orbit, bool seeks, inout March m) {
@@ -152,19 +185,7 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #else
     while (m.steps < plan_max_steps) {
 #endif
-#ifdef RAY_RECHARTS
-        m.next = ray_recharted(m.s, m.next);
-#endif
-        m.s = m.next;
-#ifdef STEP_ADAPTS
-        m.next = adapted_step(orbit, m.s, m.trial, m.h);
-        m.next = completed(orbit, m.s, m.h, m.next);
-#else
-        m.h = step_size(orbit, m.s);
-        m.next = march_step(orbit, m.s, m.h);
-#endif
-        ++m.steps;
-        m.fate = ray_fate(orbit, m.next);
+        march_once(orbit, m);
 #if ORDERS > 0
         m.crossed = seeks && is_below(m.next) != is_below(m.s);
 #endif
@@ -187,18 +208,8 @@ float march_end(Orbit orbit, March m) {
 Hits trace_ray(RayStart start) {
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
-    March m;
-    m.s = ray_init(start, orbit, hits);
-    m.next = m.s;
-    m.h = 0.0;
-#ifdef STEP_ADAPTS
-    m.trial = ray_plain_step(orbit, m.s);
-#endif
-    m.steps = 0;
-    m.fate = UNRESOLVED;
-    m.crossed = false;
+    March m = march_start(orbit, ray_init(start, orbit, hits));
 #if MEETINGS
-    m.near = false;
     vec4 place = path_place(ray_path(orbit, m.s));
     if (place.w > 0.0) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.s), true, hits);
     // From event to event, whatever it is.

@@ -421,6 +421,44 @@ def live_chart(hands: Hands) -> None:
     assert not hands.state.show_chart and not chart.busy(hands.state)
 
 
+def path_view(hands: Hands) -> None:
+    """G opens the view. A click on the picture shows the ray of its pixel, a drag only orbits; the same ray by another method comes beside it."""
+    paths = hands.window.path_view.paths
+    hands.press(Key.p)
+    hands.state.change({"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.step_length": 2.0, "hole.spin": 0.0})
+    hands.state.change({"camera.distance": 5.0})
+    hands.settle()
+    wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
+    hands.press(Key.g)
+    traces = hands.window.picture.renderer.hit_map.traces
+    view = hands.window.view()
+    place = view.left + 0.5 * view.width, view.top + 0.4 * view.height
+    hands.context.mouse_move_to_pos(place)
+    hands.context.mouse_click(0)
+    wait(hands, lambda: len(paths.shown) == 1, seconds=20.0)
+    assert paths.failure is None and paths.shown[0].path.tunnels == (3,)
+    x, y = paths.shown[0].asked.pixel
+    assert abs(x - 0.5 * view.area.width) <= 1.0 and abs(y - 0.6 * view.area.height) <= 1.0
+    assert hands.window.picture.renderer.hit_map.traces == traces, "the picture keeps its hits"
+    hands.context.item_click("//Paths of light/**/Again by the most accurate method")
+    wait(hands, lambda: len(paths.shown) == 2, seconds=20.0)
+    assert [item.path.fate.name for item in paths.shown] == ["ESCAPED", "CAPTURED"], "the coarse one comes through the hole"
+    hands.context.mouse_move_to_pos(place)
+    hands.context.mouse_down(0)
+    hands.context.mouse_move_to_pos((place[0] + 30.0, place[1]))
+    hands.context.mouse_up(0)
+    hands.settle()
+    assert len(paths.shown) == 2 and not paths.busy and hands.scene.camera.azimuth_deg != 0.0
+    hands.context.item_click("//Paths of light/**/x##remove 0")
+    hands.context.yield_(2)
+    assert [item.path.fate.name for item in paths.shown] == ["CAPTURED"]
+    hands.press(Key.g)
+    hands.context.mouse_move_to_pos(place)
+    hands.context.mouse_click(0)
+    hands.context.yield_(4)
+    assert not hands.state.show_paths and len(paths.shown) == 1 and not hands.state.render_error
+
+
 def preset_switches_never_freeze(hands: Hands) -> None:
     """Every shipped preset picked in turn, with nothing compiled before: no frame is long, and the old picture stays until the new one is there."""
     picture, frames = hands.window.picture, Frames(hands.window)
@@ -499,4 +537,4 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
-WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, preset_switches_never_freeze)
+WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, path_view, preset_switches_never_freeze)

@@ -129,6 +129,8 @@ def _of_methods() -> Iterator[Wanted]:
         for orders, view, listed in ((0, "picture", 0), (1, "conservation", 0), (3, "picture", 1)):
             made = replace(plan(kerr.with_values({**values, "post.view": view})), orders=orders)
             yield "trace.frag", f"{name}, {orders} orders", made, {"RAYS_LISTED": listed}
+            if listed and made.integrator is not None:
+                yield "record.frag", name, made, {}
 
 
 def _methods() -> Iterator[tuple[str, Mapping[str, object]]]:

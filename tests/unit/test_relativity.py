@@ -146,6 +146,19 @@ def test_spherical_photon_orbits_are_double_roots(spin):
     np.testing.assert_allclose(4 * r * p, (2 * r - 2) * k, rtol=1e-11)
 
 
+@pytest.mark.parametrize("spin", [0.0, 1e-6, 0.3, -0.9, 0.998])
+def test_photon_shell_is_where_spherical_orbits_turn(spin):
+    r, cosine = relativity.photon_shell(spin, 33)
+    assert r[0] == pytest.approx(relativity.photon_orbit_radius(spin)) and r[-1] == pytest.approx(relativity.photon_orbit_radius(spin, "retrograde"))
+    assert cosine[0] < 1e-6 and cosine[-1] < 1e-6 and 0.99 < cosine.max() <= 1.0
+    if spin:
+        inner = slice(1, -1)
+        lam, eta = relativity.spherical_photon_orbit((2.0 * r[inner] - 3.0) / spin, spin)
+        u = cosine[inner] ** 2
+        # k_theta^2 = eta + a^2 u - lambda^2 u/(1 - u) is 0 there, against the size of its terms
+        np.testing.assert_allclose((eta + spin**2 * u) * (1 - u), lam**2 * u, rtol=1e-6, atol=1e-7)
+
+
 def test_critical_curve_goes_over_into_the_circle():
     for spin, theta in ((0.0, 1.0), (1e-9, 1.0), (-1e-9, np.pi / 2), (1e-9, 0.0)):
         alpha, beta = relativity.critical_curve(spin, theta, 64)
