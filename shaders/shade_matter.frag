@@ -18,8 +18,7 @@
 #include "common/disk_edge.glsl"
 #include "common/disk_matter.glsl"
 #include "common/disk_orbit.glsl"
-
-uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/physics/disk_profile.py
+#include "common/disk_temperature.glsl"
 
 #if MEETINGS
 layout(location = 0, index = 0) out vec4 radiance;
@@ -40,26 +39,20 @@ const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives th
 
 #slots disk_layer
 
-float disk_temperature(float r) {
-    float t = sqrt(clamp((r - disk_r_in) / (disk_r_out - disk_r_in), 0.0, 1.0));
-    return textureLod(temperature_profile, vec2(t, 0.5), 0.0).r;
-}
-
 // Radiance of the smooth disk. Gravity's part of g acts on colour and brightness, unless "redshift" is off; the Doppler part
 // on each by its own switch (common/disk_orbit.glsl says how g is split). The observer's own shift counts as gravity's.
 vec3 disk_radiance(float r, float lambda, float energy) {
     vec2 shift = disk_shift(r, lambda);
-    float gravity = DISK_REDSHIFT == 1 ? shift.x * energy : 1.0;
-    float colour_shift = DISK_DOPPLER_COLOUR == 1 ? shift.y : 1.0;
+    vec2 colour_shift = disk_colour_shift(shift, energy);
     float power_shift = DISK_BEAMING == 1 ? shift.y : 1.0;
     float temperature = disk_temperature(r);
     float power = temperature * temperature;
-    power *= power * pow(max(gravity * power_shift, 1e-6), disk_beaming_exponent);
+    power *= power * pow(max(colour_shift.x * power_shift, 1e-6), disk_beaming_exponent);
     float brightness = power * disk_emission_strength * EMISSION_UNIT;
 #if DISK_COLOUR_WHITE
     return vec3(brightness);
 #else
-    return blackbody_colour(disk_temperature_k * temperature * gravity * colour_shift) * brightness;
+    return blackbody_colour(disk_temperature_k * temperature * colour_shift.x * colour_shift.y) * brightness;
 #endif
 }
 

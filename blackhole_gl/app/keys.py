@@ -72,7 +72,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("help", ("F1", "H"), "This window"),
     Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),
     Action("full_screen", ("F11",), "Full screen"),
-    Action("view", ("V",), "Next view: picture, steps, orders, g-factor, difference, conservation, unresolved"),
+    Action("view", ("V",), "Next view: picture, steps, orders, g-factor, temperature, difference, conservation, unresolved"),
     Action("panel", ("TAB",), "Show or hide the panel"),
     Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 
+from ..render import views
 from ..scene import Scene
 
 # A picture at rest that takes longer than this for one more ray a pixel, two times running, is left as it is, in seconds: meanwhile the window answers
@@ -34,8 +35,8 @@ class Sharpening:
         self.samples = self._most = 1
 
     def begin(self, scene: Scene) -> None:
-        """There is a new picture, of `scene`. Views in false colours have no edges to smooth."""
-        self._most = scene.rays.at_rest if scene.post.view == "picture" else 1
+        """There is a new picture, of `scene`."""
+        self._most = scene.rays.at_rest if views.has_mean(scene) else 1
 
     def take(self, draw: Callable[[], int]) -> bool:
         """Has one more taken by `draw`, which returns how many there are then. Returns whether there was one to take."""

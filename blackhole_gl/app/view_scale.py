@@ -6,17 +6,15 @@ from collections.abc import Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render.views import Colour, Scale, view_of
+from ..render.views import Colour, Scale, View
 from . import overlay, theme
-from .state import WindowState
 
 _PIECES = 96
 _WIDTH_EM = 22.0
 
 
-def draw(state: WindowState, corner: overlay.Corner, width: float) -> None:
-    """Draws what the view's colours mean, with its bottom right at `corner`, at most `width` wide; nothing over the picture itself."""
-    view = view_of(state.scene)
+def draw(view: View | None, corner: overlay.Corner, width: float) -> None:
+    """Draws what the colours of `view` mean, with its bottom right at `corner`, at most `width` wide; nothing where there is none."""
     if view is None:
         return
     em = hello_imgui.em_size()
@@ -62,7 +60,9 @@ def bar(scale: Scale, length: float, em: float) -> None:
 
 def _legend_row(meaning: str, colour: Colour, em: float) -> None:
     place = imgui.get_cursor_screen_pos()
-    imgui.get_window_draw_list().add_rect_filled((place.x, place.y + 0.1 * em), (place.x + 0.9 * em, place.y + 1.0 * em), _code(colour))
+    corners = (place.x, place.y + 0.1 * em), (place.x + 0.9 * em, place.y + 1.0 * em)
+    imgui.get_window_draw_list().add_rect_filled(*corners, _code(colour))
+    imgui.get_window_draw_list().add_rect(*corners, _code(_TEXT))  # dark ones are like what is behind them
     imgui.dummy((0.9 * em, imgui.get_text_line_height()))
     imgui.same_line()
     imgui.text_colored(theme.QUIET, meaning)

@@ -7,13 +7,15 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
+from ..glsl.declared import Fate
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene, presets
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
-from .views import Scale, View, linear_light, view_of
+from .temperatures import TemperatureProfile
+from .views import Ends, Scale, View, ends_of, linear_light, view_of
 
 _COLOURS = 256
 
@@ -47,7 +49,23 @@ class ViewPass:
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
+        self._temperatures = TemperatureProfile(ctx)
         self._scales: dict[bool, moderngl.Texture] = {}
+        self._steps: Ends | None = None
+
+    def fit(self, scene: Scene, hit_map: HitMap, *, moving: bool = False) -> None:
+        """Makes the scale of what follows one for the values in `hit_map`, which has to be sharp; where the camera is `moving` it only grows."""
+        if scene.post.view != "steps":
+            return
+        fate, steps = hit_map.fates_and_steps()
+        ends = ends_of(steps[fate != Fate.UNRESOLVED])
+        if moving and self._steps is not None:
+            ends = min(ends[0], self._steps[0]), max(ends[1], self._steps[1])
+        self._steps = ends
+
+    def view_of(self, scene: Scene) -> View | None:
+        """The view that `scene` asks for, with the scale that it is drawn by; None for the picture itself."""
+        return view_of(scene, self._steps)
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, reference: HitMap, target: moderngl.Framebuffer) -> None:
         """Draws the view of `hit_map` that the scene asks for into `target` (RGBA16F, of the map's size).
@@ -59,12 +77,13 @@ class ViewPass:
             ValueError: the scene asks for no view.
         """
         scene = inputs.plan.scene
-        view = view_of(scene)
+        view = self.view_of(scene)
         if view is None:
             raise ValueError(f"post.view: got {scene.post.view!r}, which is shaded; allowed here are the views in false colours")
         prepared = self._programs.get(f"views/{scene.post.view}.frag", inputs)
         samplers = hit_map.samplers()
         samplers |= {f"exact{k}": texture for k, texture in enumerate(reference.textures)}
+        samplers["temperature_profile"] = self._temperatures.of(inputs.plan)
         if view.scale is not None:
             samplers["colour_scale"] = self._colours(view.scale)
         prepared.sample(samplers)
@@ -79,6 +98,7 @@ class ViewPass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
+        self._temperatures.release()
         for texture in self._scales.values():
             texture.release()
         self._scales = {}

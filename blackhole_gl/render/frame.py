@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, supersampling
+from . import diagnostics, supersampling, views
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .post import PostPass
@@ -104,6 +105,7 @@ class Renderer:
         inputs = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size)
         stamps = [clock.perf_counter()]
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
+        self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         radiance = self._shaded(inputs)
         self._stamp(stamps, measure)
@@ -123,16 +125,17 @@ class Renderer:
             How many rays a pixel there are now.
 
         Raises:
-            As `render`; ValueError: the scene asks for a view, whose false colours have no mean.
+            As `render`; ValueError: the scene asks for a view whose false colours have no mean.
         """
-        if diagnostics.is_on(scene):
-            raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; only 'picture' is drawn finer")
+        if not views.has_mean(scene):
+            raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; its colours have no mean")
         self._mean.begin((scene, time, size))
         first = self._mean.count == 0
-        inputs = FrameInputs.whole(make_plan(scene), time, size, supersampling.place(self._mean.count))
+        inputs = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size, supersampling.place(self._mean.count))
         hit_map = self.hit_map if first else self._sample_map
         if first:
             self._trace(inputs)
+            self._views.fit(scene, hit_map)
         else:
             hit_map.trace(inputs)
         mean = self._mean.add(_radiance_of(self._shaded(inputs, hit_map)))
@@ -164,6 +167,7 @@ class Renderer:
         """
         plan = diagnostics.prepared(make_plan(scene))
         width, height = size
+        self._fit_view(plan, size)
         total = np.zeros((height, width, 4), np.float32)
         tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
         passes = [(tile, index) for tile in tiles for index in range(samples * samples)]
@@ -218,6 +222,10 @@ class Renderer:
         """The hit map of the last frame."""
         return self.hit_map.read()
 
+    def view_of(self, scene: Scene) -> views.View | None:
+        """The diagnostic view that `scene` asks for, with the scale of the last frame; None for the picture itself."""
+        return self._views.view_of(scene)
+
     def release(self) -> None:
         """Gives the GL objects back."""
         self.hit_map.release()
@@ -245,10 +253,18 @@ class Renderer:
         if self._radiance is None or self._radiance.size != inputs.size:
             self._radiance = self._fresh(self._radiance, inputs.size, 4, "f2")
         if diagnostics.is_on(inputs.plan.scene):
-            self._views.draw(inputs, self.hit_map, self.reference_map, self._radiance.frame)
+            self._views.draw(inputs, hit_map or self.hit_map, self.reference_map, self._radiance.frame)
         else:
             self._shade.draw(inputs, hit_map or self.hit_map, self._radiance.frame)
         return self._radiance
+
+    def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:
+        """Has tiles of a picture of `size` drawn by one scale, that of the whole, found on a picture no larger than a tile."""
+        if plan.scene.post.view == "steps":
+            share = min(1.0, TILE / math.sqrt(size[0] * size[1]))
+            inputs = FrameInputs.whole(plan, 0.0, (max(round(share * size[0]), 1), max(round(share * size[1]), 1)))
+            self._trace(inputs)
+            self._views.fit(plan.scene, self.hit_map)
 
     def _own_picture(self, size: tuple[int, int]) -> Target:
         if self._picture is None or self._picture.size != size:

@@ -8,13 +8,12 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
-from ..physics import disk_profile
-from ..plan import Plan
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import SHADE_SLOTS, Draw, Programs, chosen
 from .tables import Tables
 from .target import Target
+from .temperatures import TemperatureProfile
 
 # Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
 _DISK, _SKY, _FLAT_SKY = PixelClass.MATTER.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
@@ -49,8 +48,7 @@ class ShadePass:
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._tables = Tables(ctx)
-        self._profile: moderngl.Texture | None = None
-        self._profile_key: tuple | None = None
+        self._temperatures = TemperatureProfile(ctx)
         self._classes: _Classes | None = None
         self._classes_key: tuple | None = None
         self._disk_box: Box | None = None  # not known before the second frame of the same classes
@@ -61,7 +59,6 @@ class ShadePass:
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning)."""
-        self._update_profile(inputs.plan)
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
         frame = self._attached(target, classes)
         ctx = self._ctx
@@ -119,16 +116,14 @@ class ShadePass:
     def release(self) -> None:
         """Gives the GL objects back."""
         self._tables.release()
-        if self._profile is not None:
-            self._profile.release()
-        self._profile, self._profile_key = None, None
+        self._temperatures.release()
         self._release_classes()
 
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
         things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
-        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures})
+        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)})
         return prepared
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
@@ -176,23 +171,6 @@ class ShadePass:
         self._classes_key, self._sky_key, self._sky_kept = None, None, False
         self._disk_box = None
 
-    @property
-    def _temperatures(self) -> moderngl.Texture:
-        if self._profile is None:
-            raise RuntimeError("nothing has been shaded yet: `draw` makes the temperature profile")
-        return self._profile
-
-    def _update_profile(self, plan: Plan) -> None:
-        disk = plan.scene.disk
-        key = (disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer)
-        if key == self._profile_key:
-            return
-        values = disk_profile.table(*key)
-        if self._profile is None:
-            self._profile = _row(self._ctx, values[:, None])
-        self._profile.write(values.tobytes())
-        self._profile_key = key
-
 
 def _disk_box(classes: moderngl.Texture) -> Box:
     """The smallest that holds all pixels which may cross the disk; of no size where there are none. Waits for the GPU."""
@@ -202,11 +180,3 @@ def _disk_box(classes: moderngl.Texture) -> Box:
     if not rows.size:
         return 0, 0, 0, 0
     return int(columns[0]), int(rows[0]), int(columns[-1] - columns[0]) + 1, int(rows[-1] - rows[0]) + 1
-
-
-def _row(ctx: moderngl.Context, values: np.ndarray) -> moderngl.Texture:
-    """A one-row, linearly filtered float table from (entries, components)."""
-    texture = ctx.texture((len(values), 1), values.shape[1], np.ascontiguousarray(values, np.float32).tobytes(), dtype="f4", alignment=4)
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture

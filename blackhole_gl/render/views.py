@@ -12,12 +12,20 @@ from ..scene import Scene
 
 Colour = tuple[float, float, float]  # sRGB, 0…1
 
+Ends = tuple[float, float]
+"""Of a scale."""
+
 MAGENTA: Colour = (1.0, 0.0, 1.0)
 RED: Colour = (0.90, 0.12, 0.10)
 GREY: Colour = (0.22, 0.22, 0.24)
 DARK: Colour = (0.10, 0.10, 0.11)
 SLATE: Colour = (0.16, 0.22, 0.32)
 BROWN: Colour = (0.40, 0.28, 0.14)
+
+_ROUND = tuple(digit * 10.0**power for power in range(6) for digit in (1.0, 2.0, 5.0))
+
+# Ends of the scale of temperatures, of the disk's own highest one: cold rims recede, and what comes near is seen hotter than it is.
+_OF_THE_HOTTEST = (0.25, 1.6)
 
 # Viridis (S. van der Walt and N. Smith 2015, CC0) by a polynomial of degree 6 in each channel, fitted here to the 256 published
 # colours so that the largest error is least: 0.011.
@@ -76,11 +84,13 @@ class View:
         title: what is shown.
         scale: None where colours stand for kinds and not for values.
         legend: (meaning, colour) of colours off the scale, in the order in which its shader numbers them.
+        has_mean: whether colours of several rays through a pixel may be averaged. Not where a single ray is what one looks for.
     """
 
     title: str
     scale: Scale | None
     legend: tuple[tuple[str, Colour], ...] = ()
+    has_mean: bool = False
 
 
 _VIEWS: Mapping[str, View] = MappingProxyType(
@@ -89,8 +99,11 @@ _VIEWS: Mapping[str, View] = MappingProxyType(
             "Crossings of the disk (dim: of its plane only); colours add up",
             None,
             (("direct picture", (0.80, 0.36, 0.10)), ("first ring", (0.12, 0.62, 0.42)), ("second ring", (0.30, 0.34, 0.90)), ("none", DARK)),
+            has_mean=True,
         ),
-        "g_factor": View("Frequency shift g of the first visible crossing", Scale(0.4, 2.5, "", True, True, (0.4, 0.6, 1.0, 1.6, 2.5)), (("no disk", GREY),)),
+        "g_factor": View(
+            "Frequency shift g of the first visible crossing", Scale(0.4, 2.5, "", True, True, (0.4, 0.6, 1.0, 1.6, 2.5)), (("no disk", GREY),), has_mean=True
+        ),
         "difference": View(
             "Displacement from the most accurate method",
             Scale(1e-3, 10.0, "px", True, False, (1e-3, 1e-2, 0.1, 1.0, 10.0)),
@@ -106,12 +119,18 @@ _VIEWS: Mapping[str, View] = MappingProxyType(
 )
 
 
-def view_of(scene: Scene) -> View | None:
-    """The view that `scene` asks for by ``post.view``; None for the picture itself."""
+def view_of(scene: Scene, steps: Ends | None = None) -> View | None:
+    """The view that `scene` asks for by ``post.view``; None for the picture itself.
+
+    Args:
+        steps: ends of the scale of steps, from `ends_of`; what the scene allows when None.
+    """
     if scene.post.view == "steps":
-        most = float(scene.rays.max_steps)
-        ticks = (*(10.0**k for k in range(5) if 2.0 * 10.0**k < most), most)
-        return View("Steps of a ray, of the most allowed", Scale(1.0, most, "", True, False, ticks), (("unresolved", MAGENTA),))
+        low, high = steps or (1.0, float(scene.rays.max_steps))
+        return View("Steps of a ray", Scale(low, high, "", True, False, _round_numbers(low, high)), (("unresolved", MAGENTA),), True)
+    if scene.post.view == "temperature":
+        low, high = (share * scene.disk.temperature_k for share in _OF_THE_HOTTEST)
+        return View("Temperature of the disk's light", Scale(low, high, "K", True, False, _round_numbers(low, high)), (("no disk", GREY),), True)
     return _VIEWS.get(scene.post.view)
 
 
@@ -125,6 +144,26 @@ def scale_of(view: str) -> Scale:
     if scale is None:
         raise ValueError(f"got the view {view!r}; allowed is one whose colours stand for values")
     return scale
+
+
+def has_mean(scene: Scene) -> bool:
+    """Whether what `scene` asks for may be the mean of several rays through a pixel: the picture, or a view that has one."""
+    view = view_of(scene)
+    return view is None or view.has_mean
+
+
+def ends_of(values: np.ndarray) -> Ends:
+    """Ends of a logarithmic scale for `values`, any shape, each at least 1: round numbers round all but the largest thousandth, so that they seldom change."""
+    if values.size == 0:
+        return 1.0, 10.0
+    low, high = max(float(values.min()), 1.0), max(float(np.quantile(values, 0.999)), 1.0)
+    below = max(number for number in _ROUND if number <= low)
+    return below, min(number for number in _ROUND if number >= high and number > below)
+
+
+def _round_numbers(low: float, high: float) -> tuple[float, ...]:
+    """1, 2, 5, 10 … from `low` to `high`."""
+    return tuple(number for number in _ROUND if low <= number <= high)
 
 
 def linear_light(colours: np.ndarray) -> np.ndarray:

@@ -139,9 +139,9 @@ class Post:
     """From scene radiance to the picture on the screen."""
 
     view: str = choice(
-        "picture", ("picture", "steps", "order", "g_factor", "difference", "conservation", "unresolved"),
-        "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, displacement from the most accurate method, "
-        "drift of conserved quantities, unresolved rays.",
+        "picture", ("picture", "steps", "order", "g_factor", "temperature", "difference", "conservation", "unresolved"),
+        "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, temperature of the disk's light, displacement from the "
+        "most accurate method, drift of conserved quantities, unresolved rays.",
     )
     exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light.")
     bloom: bool = switch(True, "Glow around bright places, as in a lens.")

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from blackhole_gl.render import views
+
 
 @dataclass(frozen=True)
 class Report:
@@ -62,6 +64,9 @@ class FakeRenderer:
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0)
         return self.finer
+
+    def view_of(self, scene):
+        return views.view_of(scene)
 
     def fates_and_steps(self):
         return np.ones((2, 2), int), np.full((2, 2), 10)

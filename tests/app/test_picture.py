@@ -188,12 +188,13 @@ def test_what_moves_again_begins_with_one_ray_a_pixel(resting):
     assert picture.samples == 2
 
 
-def test_a_view_in_false_colours_has_one_ray_a_pixel(resting):
+@pytest.mark.parametrize("view, samples", [("unresolved", 1), ("steps", MOST_SAMPLES)])
+def test_a_view_of_single_rays_has_one_a_pixel(resting, view, samples):
     picture, draw = resting
-    view = Scene().with_values({"post.view": "steps"})
+    view = Scene().with_values({"post.view": view})
     while not picture.is_final:
         draw(view)
-    assert picture.samples == 1 and picture.renderer.finer == 0
+    assert picture.samples == samples
 
 
 def test_where_one_more_ray_takes_long_the_window_answers_first(resting, monkeypatch):

@@ -7,8 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from blackhole_gl.physics import disk_profile, relativity
+from blackhole_gl.plan import plan
+from blackhole_gl.render import supersampling
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.views import MAGENTA, RED, linear_light, view_of
+from blackhole_gl.render.views import MAGENTA, RED, Scale, ends_of, linear_light, view_of
 from blackhole_gl.scene import Scene, fields, presets
 
 SIZE = (48, 30)
@@ -27,9 +30,9 @@ def drawn(renderer: Renderer, scene: Scene) -> np.ndarray:
     return renderer.radiance()[::-1]
 
 
-def on_scale(scene: Scene, values: np.ndarray) -> np.ndarray:
-    """The colours, linear light, that `values` should have on the scale of the scene's view."""
-    scale = view_of(scene).scale
+def on_scale(scene: Scene, values: np.ndarray, scale: Scale | None = None) -> np.ndarray:
+    """The colours, linear light, that `values` should have on `scale`, or on that of the scene's view where it is always the same."""
+    scale = scale or view_of(scene).scale
     low, high, here = (np.log(v) if scale.is_log else v for v in (scale.low, scale.high, np.maximum(values, 1e-30)))
     place = np.clip((here - low) / (high - low), 0.0, 1.0)
     entries = linear_light(scale.colours(1025))
@@ -50,7 +53,73 @@ def test_every_view_is_drawn_and_finite(renderer: Renderer, view: str, model: st
 def test_steps_are_those_of_the_hits(renderer: Renderer) -> None:
     scene = scene_with("steps")
     picture = drawn(renderer, scene)
-    np.testing.assert_allclose(picture, on_scale(scene, renderer.hits().steps), atol=HALF)
+    np.testing.assert_allclose(picture, on_scale(scene, renderer.hits().steps, renderer.view_of(scene).scale), atol=HALF)
+
+
+def test_steps_spend_their_scale_on_what_is_there(renderer: Renderer) -> None:
+    """Of 8192 steps allowed few rays take a hundred."""
+    scene = scene_with("steps")
+    picture, steps = drawn(renderer, scene), renderer.hits().steps
+    lightness, scale = picture @ (0.2126, 0.7152, 0.0722), renderer.view_of(scene).scale
+    assert scale.low <= steps.min() and np.quantile(steps, 0.999) <= scale.high < 2.6 * np.quantile(steps, 0.999), "to the next round number"
+    assert lightness.max() > 8.0 * lightness.min(), "yellow beside violet"
+    assert scale.ticks[0] == scale.low and scale.ticks[-1] == scale.high
+
+
+def test_a_scale_of_steps_stands_still_while_the_camera_moves(renderer: Renderer) -> None:
+    scenes = [scene_with("steps", **{"camera.distance": distance}) for distance in (8.0, 20.0, 60.0, 3.0, 20.0)]
+    ends = []
+    for scene in scenes:
+        renderer.render(scene, 0.0, SIZE, progressive=True)
+        ends.append((renderer.view_of(scene).scale.low, renderer.view_of(scene).scale.high))
+    assert all(after[0] <= before[0] and after[1] >= before[1] for before, after in zip(ends, ends[1:])), "it only grows"
+    renderer.render(scenes[0], 0.0, SIZE)
+    steps = renderer.hits().steps
+    scale = renderer.view_of(scenes[0]).scale
+    assert (scale.low, scale.high) == ends_of(steps), "at rest it is that of the picture"
+
+
+@pytest.mark.parametrize(
+    "values, ends", [([], (1.0, 10.0)), ([1, 1], (1.0, 2.0)), ([0, 0], (1.0, 2.0)), ([23, 190], (20.0, 200.0)), ([20, 200], (20.0, 200.0))]
+)
+def test_ends_of_a_scale_are_round(values: list[int], ends: tuple[float, float]) -> None:
+    assert ends_of(np.array(values)) == ends
+
+
+@pytest.mark.parametrize("off", [(), ("disk.redshift",), ("disk.doppler_colour",), ("disk.redshift", "disk.doppler_colour")])
+def test_temperatures_are_those_of_the_disk_shifted_by_g(renderer: Renderer, off: tuple[str, ...]) -> None:
+    """T of Page & Thorne and g of circular orbits in float64. 3e-3: the profile's table is linear between 512 radii."""
+    scene = scene_with("temperature", **dict.fromkeys(off, False))
+    picture, hits, made = drawn(renderer, scene), renderer.hits(), plan(scene)
+    r = np.hypot(hits.crossing[..., 0], hits.crossing[..., 1]).astype(float)
+    inside = (r >= made.disk_inner) & (r <= made.disk_outer)
+    none = ~inside.any(axis=-1)
+    first = np.take_along_axis(r, inside.argmax(axis=-1)[..., None], axis=-1)[..., 0]
+    shown = np.where(none, made.disk_outer, first)
+    spin = scene.hole.spin
+    towards = 1.0 / (1.0 - 0.5 * relativity.orbital_frequency(shown, spin) * hits.lambda_)
+    gravity = 1.0 / relativity.orbital_u_t(shown, spin) / relativity.static_lapse(scene.camera.distance, np.radians(scene.camera.inclination_deg), spin)
+    kelvin = scene.disk.temperature_k * disk_profile.temperature(
+        "page_thorne", shown, spin=spin, orbit="prograde", r_in=made.disk_inner, r_out=made.disk_outer
+    )
+    kelvin *= (1.0 if "disk.redshift" in off else gravity) * (1.0 if "disk.doppler_colour" in off else towards)
+    assert is_colour(picture, view_of(scene).legend[0][1])[none].all()
+    np.testing.assert_allclose(picture[~none], on_scale(scene, kelvin)[~none], atol=3e-3)
+    scale = view_of(scene).scale
+    assert scale.unit == "K" and (off or scale.low < np.quantile(kelvin[~none], 0.02) and kelvin[~none].max() < scale.high), "without gravity it is art"
+
+
+@pytest.mark.parametrize("view", ["order", "g_factor", "steps", "temperature"])
+def test_edges_of_false_colours_are_smooth_at_rest(renderer: Renderer, view: str) -> None:
+    """Nearer to what 36 rays a pixel give: a pixel on an edge is of both colours."""
+    scene = scene_with(view)
+    renderer.render_still(scene, 0.0, SIZE, samples=6)
+    still = renderer.read_rgb8().astype(int)
+    renderer.render(scene, 0.0, SIZE)
+    jagged = np.abs(renderer.read_rgb8() - still).mean()
+    while renderer.render_finer(scene, 0.0, SIZE) < supersampling.MOST_SAMPLES:
+        pass
+    assert np.abs(renderer.read_rgb8() - still).mean() < 0.2 * jagged
 
 
 def test_order_shows_nothing_without_a_disk(renderer: Renderer) -> None:
@@ -169,5 +238,5 @@ def test_ranges_stand_in_the_documents(view: str) -> None:
     if scale is None:
         assert stated.strip() == "–"
     else:
-        assert f"{scale.low:g}".replace("e-0", "e-") in stated
-        assert ("rays.max_steps" if view == "steps" else f"{scale.high:g}") in stated
+        ends = {"steps": ("what there is",) * 2, "temperature": ("quarter", "1.6")}.get(view, (f"{scale.low:g}".replace("e-0", "e-"), f"{scale.high:g}"))
+        assert ends[0] in stated and ends[1] in stated
