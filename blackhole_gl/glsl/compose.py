@@ -16,14 +16,16 @@ moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses th
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..text_files import TextError, read_text
 from .live import Words, live_words
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_CALLED = re.compile(r"\w*\$key\w*(?=\()")  # functions of a plug-in, in a line for each
 _LOG_LINE = (
     re.compile(r"^\d+:(?P<line>\d+)\(\d+\): (?P<text>.*)$"),  # Mesa
     re.compile(r"^\d+\((?P<line>\d+)\) : (?P<text>.*)$"),  # NVIDIA
@@ -103,9 +105,10 @@ def compose(
         instances: the GLSL that replaces ``#instances``.
 
     Raises:
-        ShaderError: a file or a slot is missing, or a directive is malformed.
+        ShaderError: a file or a slot is missing, a directive is malformed, or a plug-in lacks a function that is called for each of its slot.
     """
-    lines = list(_expand(roots, path, chosen or {}, set(), ("", 0)))
+    reader = _Reader(roots, chosen or {})
+    lines = list(reader.lines(path))
     mentioned = {word for text, _ in lines for word in _WORD.findall(text.partition("//")[0])}
     used = {name: value for name, value in (switches or {}).items() if name in mentioned}
     words = live_words((text for text, _ in lines), used)
@@ -119,42 +122,75 @@ def compose(
             out.extend((line, place) for line in instances.splitlines())
         else:
             out.append((text, place))
-    return Composed("\n".join(text for text, _ in out) + "\n", tuple(place for _, place in out), used, words)
+    composed = "\n".join(text for text, _ in out) + "\n"
+    reader.refuse_missing(composed)
+    return Composed(composed, tuple(place for _, place in out), used, words)
 
 
-def _expand(roots: Sequence[Path], path: str, chosen: Mapping[str, Sequence[str]], seen: set[str], asked_at: tuple[str, int]):
-    if path in seen:
-        return
-    seen.add(path)
-    root = next((root for root in roots if (root / path).is_file()), roots[0])
-    shown = path if root == roots[0] else str(root / path)
+class _Reader:
+    """Carries out the directives that bring in other files.
+
+    Attributes:
+        called: function → the plug-in that has to have it, by its file.
+    """
+
+    def __init__(self, roots: Sequence[Path], chosen: Mapping[str, Sequence[str]]):
+        self._roots, self._chosen = roots, chosen
+        self._seen: set[str] = set()
+        self.called: dict[str, str] = {}
+
+    def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> Iterator[tuple[str, tuple[str, int]]]:
+        """Each line of the file at `path`, and of what it brings in, with its place."""
+        if path in self._seen:
+            return
+        self._seen.add(path)
+        root, shown = self._found(path)
+        in_comment = False
+        for number, text in enumerate(_source(root / path, path, shown, asked_at).splitlines(), start=1):
+            place = (shown, number)
+            match = None if in_comment else _DIRECTIVE.match(text)
+            in_comment = _comment_open(text, in_comment)
+            if match is None or match[1] in ("defines", "blocks", "instances"):
+                yield text, place
+            elif match[1] == "include":
+                name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
+                if name is None:
+                    raise ShaderError('write #include "path below shaders/"', *place)
+                yield from self.lines(name[1], place)
+            else:
+                yield from self._slot(match[1], match[2], place)
+
+    def refuse_missing(self, text: str) -> None:
+        """Refuses the composed `text` where a plug-in lacks a function that is called in it."""
+        for function, plug_in in self.called.items():
+            if not re.search(rf"^\s*(?!return\b|else\b)(?:\w+\s+)+{function}\s*\(", text, re.MULTILINE):
+                raise ShaderError(f"there is no function {function}, which this plug-in has to have", self._found(plug_in)[1], 1)
+
+    def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> Iterator[tuple[str, tuple[str, int]]]:
+        slot, _, template = rest.partition(":")
+        if slot.strip() not in self._chosen:
+            raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
+        for plug_in in self._chosen[slot.strip()]:
+            if directive != "each":
+                yield from self.lines(plug_in, place)
+                continue
+            key = Path(plug_in).stem
+            self.called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
+            yield template.strip().replace("$key", key).replace("$KEY", key.upper()), place
+
+    def _found(self, path: str) -> tuple[Path, str]:
+        """The root of the file at `path`, and what errors call the file."""
+        root = next((root for root in self._roots if (root / path).is_file()), self._roots[0])
+        return root, path if root == self._roots[0] else str(root / path)
+
+
+def _source(file: Path, path: str, shown: str, asked_at: tuple[str, int]) -> str:
     try:
-        source = (root / path).read_text(encoding="utf-8")
+        return read_text(file)
     except OSError:
         raise ShaderError(f"there is no shader file {path}", *asked_at) from None
-    except UnicodeDecodeError as error:
-        raise ShaderError(f"{shown} is not UTF-8 text (byte {error.start})", *asked_at) from None
-    in_comment = False
-    for number, text in enumerate(source.splitlines(), start=1):
-        place = (shown, number)
-        match = None if in_comment else _DIRECTIVE.match(text)
-        in_comment = _comment_open(text, in_comment)
-        if match is None or match[1] in ("defines", "blocks", "instances"):
-            yield text, place
-        elif match[1] == "include":
-            name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
-            if name is None:
-                raise ShaderError('write #include "path below shaders/"', *place)
-            yield from _expand(roots, name[1], chosen, seen, place)
-        else:
-            slot, _, template = match[2].partition(":")
-            if slot.strip() not in chosen:
-                raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
-            for plug_in in chosen[slot.strip()]:
-                if match[1] == "each":
-                    yield template.strip().replace("$key", Path(plug_in).stem).replace("$KEY", Path(plug_in).stem.upper()), place
-                else:
-                    yield from _expand(roots, plug_in, chosen, seen, place)
+    except TextError as error:
+        raise ShaderError(f"{shown} is {error}", *asked_at) from None
 
 
 def _comment_open(text: str, is_open: bool) -> bool:

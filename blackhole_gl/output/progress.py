@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ class Show(Protocol):
 
 
 class Progress:
-    """A line on standard error that shows the share done, once a second has passed."""
+    """A line on the terminal, as standard error, that shows the share done once a second has passed; in a file or a pipe it would be an empty line."""
 
     def __init__(self, label: str):
         self._label = label
@@ -31,7 +32,7 @@ class Progress:
 
     def _show(self, share: float, what: str = "") -> None:
         elapsed = self._clock() - self._start
-        if elapsed < 1.0 and self._bar is None:
+        if self._bar is None and (elapsed < 1.0 or not sys.stderr.isatty()):
             return
         if self._bar is None:
             from rich.console import Console

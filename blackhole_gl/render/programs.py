@@ -229,8 +229,13 @@ class Programs:
         return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []))
 
     def _times(self) -> tuple:
-        files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert"))
+        files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert") and not _leads_nowhere(path))
         return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in files))
+
+
+def _leads_nowhere(path: Path) -> bool:
+    """A link to nothing, which the catalogue has told of; a file that is missing otherwise is just being replaced."""
+    return path.is_symlink() and not path.exists()
 
 
 def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
 
+from ..resources import shaders_dir
+from ..text_files import TextError, read_text
 from . import headers, parameters
 from .headers import CatalogueError
-from .schema import Field, nearest
+from .schema import Field, nearest, number_of
 from .tables import Number, Table
 from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits, Traits
 
@@ -97,6 +100,11 @@ class PlugIn(Generic[T]):
     tables: tuple[Table, ...]
     numbers: tuple[Number, ...]
 
+    @property
+    def shipped(self) -> bool:
+        """Whether it is ours and not the user's."""
+        return self.file.is_relative_to(shaders_dir())
+
 
 def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     """The plug-in in `file`, below the shader folder `root`.
@@ -108,9 +116,11 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         CatalogueError: it cannot be read, has no header, or an entry is missing, unknown or of the wrong kind.
     """
     try:
-        header = headers.read_header(file.read_text(encoding="utf-8"), place)
-    except (OSError, UnicodeDecodeError) as error:
-        raise CatalogueError(f"{place}: cannot be read: {error}") from None
+        header = headers.read_header(read_text(file), place)
+    except OSError as error:
+        raise CatalogueError(f"{place}: cannot be read: {error.strerror or error}") from None
+    except TextError as error:
+        raise CatalogueError(f"{place}: {error}") from None
     if not headers.is_name(file.stem) or file.stem == "auto":
         raise CatalogueError(f"{place}: the file's name is the plug-in's key; allowed are {headers.NAMES}, other than auto")
     kind = SLOTS[slot].traits
@@ -123,7 +133,9 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     declared = {part: _declared(header, part, place) for part in _DECLARED}
     known = _parameters(declared["parameters"], slot, file.stem, place)
     if isinstance(traits, ThingTraits | MediumTraits):
-        _refuse_unknown_reach(traits.reach, known, place)
+        for entry in ("reach", "increasing"):
+            _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
+        _refuse_disordered_defaults(traits.increasing, known, place)
     path = file.relative_to(root).as_posix()
     return PlugIn(
         file.stem,
@@ -141,11 +153,17 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     )
 
 
-def _refuse_unknown_reach(reach: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:
+def _refuse_unknown_numbers(entry: str, names: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:
     numbers = [name for name, item in known.items() if item.kind in ("float", "int")]
-    for name in reach:
+    for name in names:
         if name not in numbers:
-            raise CatalogueError(f"{place}: reach: got {name!r}; allowed are its parameters that are numbers: {', '.join(numbers)}{nearest(name, numbers)}")
+            raise CatalogueError(f"{place}: {entry}: got {name!r}; allowed are its parameters that are numbers: {', '.join(numbers)}{nearest(name, numbers)}")
+
+
+def _refuse_disordered_defaults(increasing: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:
+    for smaller, larger in pairwise(increasing):
+        if number_of(known[smaller].default) > number_of(known[larger].default):
+            raise CatalogueError(f"{place}: increasing: the default of {smaller!r} is larger than that of {larger!r}")
 
 
 def _declared(header: Mapping[str, Any], part: str, place: str) -> Mapping[str, Mapping[str, Any]]:

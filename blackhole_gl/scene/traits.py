@@ -114,10 +114,12 @@ class ThingTraits:
     Attributes:
         reach: parameters the sum of whose sizes no part of a thing is farther from the hole than, in r_s.
         opaque: whether nothing shines through it.
+        increasing: parameters none of which may be larger than the one after it.
     """
 
     reach: tuple[str, ...]
     opaque: bool = True
+    increasing: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -125,10 +127,11 @@ class MediumTraits:
     """A kind of medium that rays may go through.
 
     Attributes:
-        reach: as of a thing.
+        reach, increasing: as of a thing.
     """
 
     reach: tuple[str, ...]
+    increasing: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ summary = "A flat ring about the hole, in a plane of any tilt through it: it glo
 source = "own"
 slot = "thing"
 reach = ["outer_radius"]
+increasing = ["inner_radius", "outer_radius"]
 
 [parameters.inner_radius]
 default = 12.0

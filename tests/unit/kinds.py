@@ -70,6 +70,7 @@ source = "own"
 slot = "thing"
 reach = ["edge"]
 opaque = false
+increasing = ["radius", "edge"]
 
 [parameters.edge]
 default = 2.0
@@ -78,7 +79,7 @@ help = "Its edge."
 
 [parameters.radius]
 default = 0.5
-range = [0.0, 1.0]
+range = [0.0, 3.0]
 help = "Of its corners."
 
 [parameters.glows]

@@ -43,6 +43,19 @@ help = 'H.'
 """
 
 
+SIZES = """reach = ['large']
+increasing = ['small', 'large']
+[parameters.small]
+default = 2.0
+range = [1, 9]
+help = 'H.'
+[parameters.large]
+default = 3.0
+range = [1, 9]
+help = 'H.'
+"""
+
+
 @pytest.fixture
 def folders(tmp_path):
     """An empty shader folder of ours, but for one step control, and one of the user's."""
@@ -234,6 +247,8 @@ def test_a_wrong_parameter_names_file_entry_and_what_is_allowed(folders, entry, 
         ("medium", "reach = ['size']", "reach: got 'size'; allowed are its parameters that are numbers: "),
         ("thing", WITH_SIZE.replace("'size'", "'sise'"), r"reach: got 'sise'; allowed are its parameters that are numbers: size; did you mean size\?"),
         ("thing", WITH_SIZE.replace("'size'", "'soft'"), "reach: got 'soft'; allowed are its parameters that are numbers: size"),
+        ("thing", "increasing = ['size', 'sise']\n" + WITH_SIZE, r"increasing: got 'sise'; .*did you mean size\?"),
+        ("medium", SIZES.replace("default = 2.0", "default = 3.5"), "increasing: the default of 'small' is larger than that of 'large'"),
         ("thing", "reach = []\n[parameters.kind]\ndefault = true\nhelp = 'H.'", "parameters.kind: 'kind' has another meaning here"),
         ("disk_layer", "enabled = 1", "enabled: got 1; allowed is true or false"),
         ("disk_layer", "opaque = true", "got the entry 'opaque'; allowed are label"),
@@ -291,6 +306,13 @@ def test_plug_ins_of_the_users_stand_beside_the_shipped_ones(folders):
     assert (ripple.file, ripple.path) == (own, "skies/ripple.glsl")
 
 
+def test_a_header_with_a_byte_order_mark_is_read(folders):
+    path = put(folders[1], "sky", "ripple", "rank = 5")
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    found = catalogue.read(*folders)
+    assert found.plug_ins["sky"]["ripple"].rank == 5 and found.mistakes == ()
+
+
 def test_a_folder_that_is_not_there_holds_nothing(folders, tmp_path):
     assert catalogue.read(folders[0], tmp_path / "nowhere").mistakes == ()
 
@@ -298,12 +320,15 @@ def test_a_folder_that_is_not_there_holds_nothing(folders, tmp_path):
 def test_a_mistake_of_the_users_leaves_that_plug_in_out_and_is_told(folders):
     wrong, good = put(folders[1], "sky", "ripple", "exact = true"), put(folders[1], "sky", "graticule", "")
     binary = folders[1] / "skies" / "binary.glsl"
-    binary.write_bytes(b"\xff\xfe")
+    binary.write_bytes(b"\xff")
+    nowhere = folders[1] / "skies" / "nowhere.glsl"
+    nowhere.symlink_to(folders[1] / "skies" / "gone.glsl")
     found = catalogue.read(*folders)
     assert list(found.plug_ins["sky"]) == [good.stem]
-    first, second = map(str, found.mistakes)
-    assert first.startswith(f"{binary}: cannot be read: ")
-    assert second.startswith(f"{wrong}: got the entry 'exact'; allowed are label")
+    first, second, third = map(str, found.mistakes)
+    assert first.startswith(f"{binary}: not UTF-8 text")
+    assert second.startswith(f"{nowhere}: cannot be read: ") and second.count("nowhere") == 1
+    assert third.startswith(f"{wrong}: got the entry 'exact'; allowed are label")
 
 
 def test_a_mistake_of_ours_is_raised(folders):

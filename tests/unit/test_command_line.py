@@ -78,6 +78,36 @@ def test_presets_of_former_names_open_with_a_note_and_steps_longer_than_asked_ar
     assert b"! steps are 3.87 times longer than asked" in done.stdout
 
 
+SKY = """/*---
+label = "Grey"
+summary = "One brightness everywhere."
+source = "own"
+slot = "sky"
+[parameters.level]
+default = 0.5
+range = [0.0, 1.0]
+help = "How bright."
+---*/
+vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) { return vec3(sky_grey_level); }
+"""
+
+
+@pytest.mark.parametrize("used", [False, True])
+def test_a_picture_opens_where_the_users_plug_ins_are_not(tmp_path: Path, used: bool) -> None:
+    skies = tmp_path / "config" / "shaders" / "skies"
+    skies.mkdir(parents=True)
+    (skies / "grey.glsl").write_bytes(b"\xef\xbb\xbf" + SKY.encode())
+    (skies / "gone.glsl").symlink_to(skies / "nowhere.glsl")
+    done = run(tmp_path, "render", "kerr", *SMALL, "-o", "x.png", *(["-s", "sky.model=grey"] if used else []))
+    told = f"blackhole-gl: left out: {skies / 'gone.glsl'}: cannot be read: "
+    assert done.returncode == 0 and done.stderr.decode().startswith(told) and done.stderr.count(b"\n") == 1, done.stderr
+    shown = run(tmp_path, "presets", "x.png", BLACKHOLE_GL_CONFIG_DIR=str(tmp_path / "elsewhere"))
+    if used:
+        assert shown.returncode == 2 and b"sky.model: got 'grey'; allowed is one of" in shown.stderr
+    else:
+        assert shown.returncode == 0 and shown.stderr == b""
+
+
 @pytest.mark.parametrize("name", ["-", "/dev/stdout"])
 def test_a_picture_goes_to_standard_output_and_nothing_else(tmp_path: Path, name: str) -> None:
     done = run(tmp_path, "render", "kerr", *SMALL, "-o", name)

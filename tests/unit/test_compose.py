@@ -45,13 +45,50 @@ def test_slots_take_what_was_chosen(shaders):
     root = shaders(
         main="#slot model\n#slots layer\nvoid f() {\n    #each layer : x = $key(x);\n}\n",
         models__kerr="int kerr;\n",
-        layers__one="int one;\n",
-        layers__two="int two;\n",
+        layers__one="int one(int x);\n",
+        layers__two="int two(int x);\n",
     )
     made = compose(root, "main.glsl", chosen={"model": ["models/kerr.glsl"], "layer": ["layers/one.glsl", "layers/two.glsl"]})
-    assert made.text == "int kerr;\nint one;\nint two;\nvoid f() {\nx = one(x);\nx = two(x);\n}\n"
+    assert made.text == "int kerr;\nint one(int x);\nint two(int x);\nvoid f() {\nx = one(x);\nx = two(x);\n}\n"
     assert made.place(6) == ("main.glsl", 4)
     assert compose(root, "main.glsl", chosen={"model": [], "layer": []}).text == "void f() {\n}\n"
+
+
+EACH = "#slots thing\nfloat f(int i) {\n    #each thing : if (i == THING_$KEY) return thing_$key_distance(i, 0.0) + other(thing_$key_count);\n}\n"
+
+
+@pytest.mark.parametrize(
+    "ball, lacks",
+    [
+        ("float thing_ball_distance(int i, float x) { return x; }\n", False),
+        ("const float\nthing_ball_distance (int i, float x) { return x; }\n", False),
+        ('#include "things/shared.glsl"\n', False),
+        ("float thing_ball_distances(int i, float x) { return x; }\n", True),
+        ("float thing_ball_light(int i) {\n    return thing_ball_distance(i, 1.0);\n}\n", True),
+    ],
+)
+def test_a_plug_in_that_lacks_a_function_of_its_slot_is_named(shaders, tmp_path, ball, lacks):
+    (shipped,) = shaders(shipped__main=EACH)
+    shaders(own__things__ball=ball, own__things__shared="float thing_ball_distance(int i, float x) { return x; }\n")
+    roots = shipped / "shipped", tmp_path / "own"
+    if not lacks:
+        compose(roots, "main.glsl", chosen={"thing": ["things/ball.glsl"]})
+        return
+    with pytest.raises(ShaderError, match="there is no function thing_ball_distance, which this plug-in has to have") as caught:
+        compose(roots, "main.glsl", chosen={"thing": ["things/ball.glsl"]})
+    assert (caught.value.file, caught.value.line) == (str(tmp_path / "own" / "things" / "ball.glsl"), 1)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_files_of_other_editors_are_read(tmp_path, encoding):
+    (tmp_path / "main.glsl").write_bytes("int a; // ä\r\nint b;\r\n".encode(encoding))
+    assert compose((tmp_path,), "main.glsl").text == "int a; // ä\nint b;\n"
+
+
+def test_a_file_that_is_no_text_is_named(tmp_path):
+    (tmp_path / "main.glsl").write_bytes(b"int a;\n\xff")
+    with pytest.raises(ShaderError, match=r"main\.glsl is not UTF-8 text \(byte 7\)"):
+        compose((tmp_path,), "main.glsl")
 
 
 def test_only_switches_that_the_text_mentions_are_written(shaders):

@@ -46,7 +46,25 @@ def test_the_kind_comes_first_however_the_values_are_ordered():
 def test_another_kind_keeps_what_both_have_and_can_take():
     scene = moon(radius=0.75, glows=True).with_values({"things.moon.kind": "cube"})
     assert dict(scene.things["moon"].values) == {"edge": 2.0, "radius": 0.75, "glows": True}
-    assert moon(radius=30.0).with_values({"things.moon.kind": "cube"}).get("things.moon.radius") == 0.5, "a cube's corners are no larger than 1"
+    assert moon(radius=30.0).with_values({"things.moon.kind": "cube"}).get("things.moon.radius") == 0.5, "a cube's corners are no larger than 3"
+
+
+def test_parameters_that_have_an_order_keep_it():
+    """A cube's radius is that of its corners, which its edge bounds."""
+    cube = Scene().with_values({"things.box.kind": "cube", "things.box.edge": 0.6})
+    assert cube.with_values({"things.box.edge": 0.8, "things.box.radius": 0.7}).get("things.box.radius") == 0.7, "one of them alone could not be so"
+    with pytest.raises(SceneError, match=r"^things\.box\.radius: got 0\.7; allowed is at most 0\.6, which is things\.box\.edge$"):
+        cube.with_values({"things.box.radius": 0.7})
+    with pytest.raises(SceneError, match=r"^things\.box\.edge: got 0\.3; allowed is at least 0\.5, which is things\.box\.radius$"):
+        cube.with_values({"things.box.edge": 0.3})
+    assert presets.load([], {"things.box.kind": "cube", "things.box.radius": "0.7", "things.box.edge": "0.8"}).get("things.box.edge") == 0.8
+    with pytest.raises(PresetError, match="^--set: things.box.edge: got 0.3; allowed is at least 0.5"):
+        presets.load([], {"things.box.edge": "0.3", "things.box.kind": "cube"})
+
+
+def test_another_kind_begins_with_its_own_values_where_the_old_ones_would_be_out_of_order():
+    made = moon(radius=2.5, glows=True).with_values({"things.moon.kind": "cube"}).things["moon"]
+    assert (made.values["edge"], made.values["radius"]) == (2.0, 0.5)
 
 
 def test_things_and_media_are_told_apart_and_keep_their_order():
@@ -276,6 +294,8 @@ def test_overrides_are_read_by_the_kind_of_their_field(overrides, key, value):
         ({**MOON, "things.moon.radii": "[99]"}, "things.moon.radii: entry 1: got 99; allowed"),
         ({"things.moon.kind": "ball"}, "things.moon.kind: got 'ball'; allowed is one of cube, sphere"),
         ({"thinks.moon.kind": "cube"}, "thinks.moon.kind: no such key"),
+        ({"things": "3"}, r"things: it holds any number of named things; allowed is things.NAME.kind=KIND, which makes one \(kinds: cube, sphere\)"),
+        ({"hole": "3"}, "hole: it is a table and has no value of its own; allowed here are hole.spin, "),
     ],
 )
 def test_a_wrong_override_is_named(overrides, says):
@@ -326,7 +346,7 @@ _spheres = st.fixed_dictionaries(
         "path": st.lists(_columns, max_size=10),
     },
 )
-_cubes = st.fixed_dictionaries({"kind": st.just("cube")}, optional={"edge": st.floats(0.1, 50.0)})
+_cubes = st.fixed_dictionaries({"kind": st.just("cube")}, optional={"edge": st.floats(0.5, 50.0)})  # no smaller than the radius of its corners
 _names = st.from_regex(r"\A[A-Za-z][A-Za-z0-9_]{0,31}\Z")
 _scenes = st.dictionaries(_names, _spheres | _cubes, max_size=3).map(
     lambda things: Scene().with_values({f"things.{name}.{entry}": value for name, values in things.items() for entry, value in values.items()})

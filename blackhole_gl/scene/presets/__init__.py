@@ -199,16 +199,21 @@ def _is_path(name_or_path: str | Path) -> bool:
 def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:
     """`scene` with the overrides put in, kinds first: they make the instances that others may be about."""
     kinds = {key for key in overrides if (place := instances.place_of(key)) is not None and place.parameter == KIND}
+    values: dict[str, Any] = {}
     for key in sorted(overrides, key=lambda key: key not in kinds):
         given = overrides[key]
         if instances.place_of(key) is None and key not in fields():
             raise PresetError(unknown_key(key), key=key, source="--set")
         try:
-            if key not in kinds:
-                item = scene.field(key)
-                given = paths.anchored(item, item.parse(given) if isinstance(given, str) else item.check(given), Path.cwd())
-            scene = scene.with_values({key: given})
+            if key in kinds:
+                scene = scene.with_values({key: given})
+                continue
+            item = scene.field(key)
+            values[key] = paths.anchored(item, item.parse(given) if isinstance(given, str) else item.check(given), Path.cwd())
         except SceneError as error:
             hint = decimal_comma(given) if isinstance(given, str) else ""
             raise PresetError(error.message + hint, key=key, source="--set") from None
-    return scene
+    try:
+        return scene.with_values(values)  # all at once: what one of them may be can depend on another
+    except SceneError as error:
+        raise PresetError(error.message, key=error.key, source="--set") from None

@@ -200,6 +200,11 @@ class _Reader:
 
 def unknown_key(key: str) -> str:
     """What to say of a key that no scene has: the nearest one, and those of its table."""
+    if key in instances.SLOTS:
+        kinds = ", ".join(catalogue.plug_ins(instances.SLOTS[key])) or "none"
+        return f"it holds any number of named {key}; allowed is {key}.NAME.kind=KIND, which makes one (kinds: {kinds}), then {key}.NAME.PARAMETER=VALUE"
+    if key in tables():
+        return f"it is a table and has no value of its own; allowed here are {', '.join(known for known in fields() if known.startswith(key + '.'))}"
     hint, section = _hint(key) or ".", key.split(".")[0]
     if section in tables():
         allowed = [known for known in fields() if known.startswith(section + ".")]

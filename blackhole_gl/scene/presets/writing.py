@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from importlib import metadata
 from pathlib import Path
 
 import tomlkit
 
 from ...output import files
-from .. import Scene, fields, instances
+from .. import Scene, catalogue, fields, instances
 from ..catalogue import KIND, SWITCH
 from ..schema import Field, Value
+from ..sections import declared
 from . import paths
 from .reading import GROUPS, PresetError, tables
 
@@ -25,8 +26,11 @@ def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str
 
 
 def picture_text(scene: Scene, time: float, folder: Path | None = None) -> str:
-    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a picture saved in `folder` carries."""
-    return _dump(scene, True, {"time": float(time), "version": version()}, folder)
+    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a picture saved in `folder` carries.
+
+    What plug-ins of the user's have that the picture does not use is left out: it is to open where there are none.
+    """
+    return _dump(scene, True, {"time": float(time), "version": version()}, folder, _idle(scene))
 
 
 def save(scene: Scene, path: str | Path, *, title: str = "", description: str = "", group: str = "", full: bool = False) -> Path:
@@ -58,12 +62,12 @@ def version() -> str:
         return "unknown"
 
 
-def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Path | None) -> str:
+def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Path | None, idle: Set[str] = frozenset()) -> str:
     document = tomlkit.document()
     for name, said in about.items():
         if said != "":
             document.add(name, said)
-    for table, entries in _entries_by_table(scene, full).items():
+    for table, entries in _entries_by_table(scene, full, idle).items():
         place = document
         for part in table.split("."):
             if part not in place:
@@ -89,11 +93,28 @@ def _written(item: Field, value: Value) -> tomlkit.items.Item:
     return records
 
 
-def _entries_by_table(scene: Scene, full: bool) -> dict[str, dict[str, Field]]:
-    """Table → name in it → field, for the fields to be written; empty tables are left out."""
+def _idle(scene: Scene) -> frozenset[str]:
+    """The keys that plug-ins of the user's have which `scene` does not use."""
+    found: set[str] = set()
+    for slot, place in catalogue.SLOTS.items():
+        for key, plug_in in catalogue.plug_ins(slot).items():
+            if not plug_in.shipped and not place.of_kinds and key not in _used(scene, slot):
+                found |= {f"{place.section}.{key}", *plug_in.parameters}  # the first is a layer's switch
+    return frozenset(found)
+
+
+def _used(scene: Scene, slot: str) -> tuple[Value, ...]:
+    """The keys of the plug-ins of `slot` that `scene` names."""
+    if slot == "disk_layer":
+        return scene.disk_layers()
+    return tuple(scene.get(key) for key, facts in declared().items() if facts.get("options") == slot)
+
+
+def _entries_by_table(scene: Scene, full: bool, idle: Set[str]) -> dict[str, dict[str, Field]]:
+    """Table → name in it → field, for the fields to be written; of those in `idle` only what is not as it comes. Empty tables are left out."""
     entries: dict[str, dict[str, Field]] = {table: {} for table in tables()}
     for key, item in fields().items():
-        if full or scene.get(key) != item.default:
+        if full and key not in idle or scene.get(key) != item.default:
             table, name = (key, SWITCH) if key in entries else key.rsplit(".", 1)
             entries[table][name] = item
     for section in instances.SLOTS:
