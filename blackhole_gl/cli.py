@@ -126,7 +126,7 @@ def render(
     preset: Presets = None,
     set_: Settings = None,
     size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
-    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a PNG preset, or 0.", show_default=False)] = None,
+    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
     supersample: Annotated[
         int | None, typer.Option(min=1, max=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.", show_default=False)
     ] = None,
@@ -286,11 +286,11 @@ def _refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
 
 
 def _time(time: float | None, names: list[str] | None) -> float:
-    """The time asked for, or that of the last PNG among the presets."""
+    """The time asked for, or that of the last among the presets that has one, as pictures and saved scenes have."""
     if time is not None:
         return time
-    times = [preset_files.read(name).time for name in names or () if name.lower().endswith(".png")]
-    return float(times[-1] or 0.0) if times else 0.0
+    timed = preset_files.last_timed(names or ())
+    return float(timed.time or 0.0) if timed else 0.0
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -19,6 +19,9 @@ _INSTANT_S = 1e-6  # no time at all: a rate over less would overflow
 _REST_DEG = 2e-3  # nearer than this to the target the camera is at rest, and the window may idle
 _REST_REACH = 2e-5
 _NEAREST = 1e-4  # r_s above the horizon
+_SHADOW_M = 2.0 * math.sqrt(27.0)  # width of a hole's shadow from afar, in M: of every spin to within a tenth
+_SMALLEST = 0.01  # of the picture's height: a shadow narrower than this is a dot
+_LARGEST = 2.0  # a far camera's shadow over the picture's height
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,31 @@ def limited(pose: Pose, scene: Scene) -> Pose:
     field, floor = _extent_field(scene), _floor(scene)
     nearest = max(field.low - floor, _NEAREST)
     return replace(pose, reach=min(max(pose.reach, math.log(nearest)), math.log(field.high - floor)))
+
+
+def within_reach(pose: Pose, scene: Scene, start: Pose) -> Pose:
+    """`pose` with its reach inside what the hand may bring about: the hole stays in sight, but for a camera that is beyond that at `start`, which may stay."""
+    near, far = (math.log(max(extent - _floor(scene), _NEAREST)) for extent in range_by_hand(scene))
+    return limited(replace(pose, reach=min(max(pose.reach, min(near, start.reach)), max(far, start.reach))), scene)
+
+
+def range_by_hand(scene: Scene) -> tuple[float, float]:
+    """The least and the greatest distance in r_s, or height of a far camera's picture in M, at which the hole is neither all that is seen nor a dot.
+
+    Nearest is the middle of the radii at which light can orbit: from there the hole fills half the sky.
+    """
+    if math.isinf(scene.camera.distance):
+        return _SHADOW_M / _LARGEST, _SHADOW_M / _SMALLEST
+    hole = space_time(scene)
+    near = 0.5 * (hole.prograde_photon_orbit + hole.retrograde_photon_orbit)
+    return near, max(near, 0.5 * _SHADOW_M / (_SMALLEST * math.radians(scene.camera.fov_deg)))
+
+
+def clear_of_horizon(scene: Scene) -> Scene:
+    """`scene`, with a camera that is not above the horizon moved out to the least distance that the hand could bring it to."""
+    if scene.camera.distance >= horizon_radius(scene) + 0.5 * _NEAREST:
+        return scene
+    return scene.with_values({"camera.distance": float(f"{range_by_hand(scene)[0]:.6g}")})
 
 
 def range_in(scene: Scene, item: Field) -> Field:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
 from ..scene import fields
-from .camera_control import Motion, limited, pose_of
+from .camera_control import Motion, limited, pose_of, within_reach
 from .state import WindowState
 
 DRAG_DEG = 180.0  # a drag over the picture's height
@@ -16,6 +16,10 @@ WHEEL_REACH = 0.15  # a notch, in logarithms of the distance from the horizon
 HOLD_DEG = 60.0  # a held key, a second
 HOLD_REACH = 1.2
 DEFAULT_KERR_SPIN = 0.9
+_STOPPED = {
+    False: "No nearer by hand: from here on the hole is all that is seen. The panel's values go further.",
+    True: "No farther by hand: from here on the hole is a dot. The panel's values go further.",
+}
 
 _HELD: Mapping[str, tuple[float, float, float]] = {
     # action: degrees of azimuth and inclination and logarithms of reach, a second
@@ -55,7 +59,10 @@ def advance(state: WindowState, hand: Hand, dt: float) -> None:
         azimuth, inclination, reach = azimuth + turn * dt, inclination + tilt * dt, reach + go * dt
     target = state.motion.target
     if azimuth or inclination or reach:
-        target = limited(target.moved(azimuth, inclination, reach), state.scene)
+        wanted = target.moved(azimuth, inclination, reach)
+        target = within_reach(wanted, state.scene, target)
+        if target.reach != wanted.reach:
+            state.say(_STOPPED[wanted.reach > target.reach])
     state.move_camera(state.motion.advanced(target, dt))
     if any(hand.look):
         look(state, *hand.look)
@@ -92,9 +99,9 @@ def toggle_spin(state: WindowState) -> None:
     spinning = scene.hole.spin != 0.0
     state.holes[spinning] = {"hole.spin": scene.hole.spin, "rays.model": scene.rays.model}
     first = {"hole.spin": 0.0} if spinning else {"hole.spin": DEFAULT_KERR_SPIN, "rays.model": "auto"}
-    state.change(state.holes.get(not spinning, first))
-    spin = state.scene.hole.spin
-    state.say(f"Kerr: a* = {spin:g}" if spin else "Schwarzschild: no spin")
+    values = state.holes.get(not spinning, first)
+    state.say(f"Kerr: a* = {values['hole.spin']:g}" if values["hole.spin"] else "Schwarzschild: no spin")
+    state.change(values)
 
 
 def next_view(state: WindowState) -> None:
@@ -112,7 +119,7 @@ _POSE = ("camera.distance", "camera.inclination_deg", "camera.azimuth_deg")
 
 
 def reset_camera(state: WindowState) -> None:
-    """Sends the camera back to where the home scene has it, the short way round."""
+    """Sends the camera back to where the presets in force have it, the short way round."""
     home = {key: state.home.get(key) for key in fields() if key.startswith("camera.")}
     pose_keys = {key: home.pop(key) for key in _POSE}
     if math.isinf(state.home.camera.distance) or math.isinf(state.scene.camera.distance):
@@ -124,6 +131,11 @@ def reset_camera(state: WindowState) -> None:
     here = state.motion.current
     turns = round((here.azimuth - pose.azimuth) / 360.0)
     state.motion = Motion(here, limited(pose.moved(azimuth=360.0 * turns), state.scene))
+
+
+def reset_all(state: WindowState) -> None:
+    """Sets everything back to what the presets in force, or the opened file, say."""
+    state.put_in_force(state.home, state.chosen)
 
 
 def flip(name: str) -> Callable[[WindowState], None]:
@@ -141,6 +153,9 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "spin": toggle_spin,
     "pause": toggle_pause,
     "reset": reset_camera,
+    "reset_all": reset_all,
+    "undo": WindowState.undo,
+    "redo": WindowState.redo,
     "help": flip("show_help"),
     "picture": flip("picture_wanted"),
     "full_screen": flip("full_screen"),

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec4, hello_imgui, imgui
 
 from .. import plan
 from ..scene import Scene, catalogue, fields, presets
 from ..scene.schema import Field
-from . import preset_switch, scene_files, theme, widgets
+from . import commands, scene_files, theme, widgets
 from .camera_control import range_in
 from .instance_groups import InstanceGroups
+from .pickers import Pickers
+from .rows import columns, wrapped_tooltip
 from .state import WindowState
 
 _TITLES = {"hole": "Black hole", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image", "playback": "Playback"}
@@ -23,7 +26,7 @@ class Panel:
     """The panel's own memory: the list of presets, the text of its filter, what is about to be added."""
 
     def __init__(self) -> None:
-        self._presets = presets.available()
+        self._pickers = Pickers()
         self._filter = ""
         self._instances = InstanceGroups()
 
@@ -34,11 +37,10 @@ class Panel:
             reasons: why rays are traced as they are, a phrase each.
             warnings: what they make worse than the scene asks, a sentence each.
         """
-        self._pickers(state)
-        self._files(state)
-        _departures(state)
-        for warning in warnings:
-            _remark(warning[:1].upper() + warning[1:])
+        self._pickers.draw(state)
+        _steps(state)
+        _files(state)
+        _remarks(state, warnings)
         imgui.separator()
         imgui.set_next_item_width(-1.0)
         _, self._filter = imgui.input_text_with_hint("##filter", "Find a value", self._filter)
@@ -47,70 +49,48 @@ class Panel:
             shown = [item for item in items if _matches(item, wanted) and _is_active(item, state.scene)]
             if shown:
                 is_open = _section(section, shown, state, forced_open=bool(wanted))
-                if is_open and section == "rays" and reasons:
-                    imgui.push_style_color(imgui.Col_.text, theme.DIM)
-                    imgui.text_wrapped("Now: " + "; ".join(reasons))
-                    imgui.pop_style_color()
+                if is_open and section == "rays":
+                    _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM)
         self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state), forced_open=bool(wanted))
 
-    def _pickers(self, state: WindowState) -> None:
-        if not imgui.begin_table("pickers", 2):
-            return
-        _columns()
-        for label, groups in preset_switch.PICKERS.items():
-            self._picker(label, groups, state)
-        if any(info.group in preset_switch.WHOLE for info in self._presets):
-            self._picker("Scene", preset_switch.WHOLE, state)
-        imgui.end_table()
 
-    def _picker(self, label: str, groups: tuple[str, ...], state: WindowState) -> None:
-        listed = [info for info in self._presets if info.group in groups]
-        current = next((info for info in listed if state.chosen.get(info.group) == info.name), None)
-        imgui.table_next_row()
-        imgui.table_next_column()
-        imgui.align_text_to_frame_padding()
-        imgui.text_unformatted(label)
-        imgui.table_next_column()
-        imgui.set_next_item_width(-1.0)
-        if not imgui.begin_combo(f"##{label} preset", current.title if current else "–", imgui.ComboFlags_.height_large.value):
-            if current and current.description:
-                _wrapped_tooltip(current.description)
-            return
-        for before, info in zip((None, *listed), listed):
-            if before is not None and before.group != info.group:
-                imgui.separator()
-            clicked, _ = imgui.selectable(f"{info.title}##{info.name}", info is current)
-            if info.description:
-                _wrapped_tooltip(info.description)
-            if clicked:
-                preset_switch.pick(state, info.group, info.name)
-        imgui.end_combo()
-
-    def _files(self, state: WindowState) -> None:
-        width = (imgui.get_content_region_avail().x - 3.0 * imgui.get_style().item_spacing.x) / 4.0
-        imgui.set_next_item_width(2.0 * width + imgui.get_style().item_spacing.x)
-        edited, state.file = imgui.input_text("##file", state.file)
-        if edited:
-            state.replace_file = ""
-        _wrapped_tooltip(f"A preset (.toml) or a picture saved here (.png). A bare name lies in {presets.user_presets_dir()}.")
+def _steps(state: WindowState) -> None:
+    """The buttons that go back: a step, a step forward again, all the way."""
+    width = (imgui.get_content_region_avail().x - 2.0 * imgui.get_style().item_spacing.x) / 3.0
+    buttons = {
+        "Undo": (bool(state.history.past), WindowState.undo, "Takes the last step back. Time, which runs by itself, goes on."),
+        "Redo": (bool(state.history.future), WindowState.redo, "Takes the step again that was last undone."),
+        "Reset all": (state.scene != state.home, commands.reset_all, "Sets everything, the camera too, back to the presets in force or the opened file."),
+    }
+    for name, (enabled, command, help) in buttons.items():
+        imgui.begin_disabled(not enabled)
+        if imgui.button(name, (width, 0.0)):
+            command(state)
+        imgui.end_disabled()
+        wrapped_tooltip(help)
         imgui.same_line()
-        if imgui.button("Save", (width, 0.0)):
-            scene_files.save(state)
-            self._presets = presets.available()
-        imgui.same_line()
-        if imgui.button("Load", (width, 0.0)):
-            scene_files.load(state)
-        half = 2.0 * width + imgui.get_style().item_spacing.x
-        if imgui.button("Copy as TOML", (half, 0.0)):
-            imgui.set_clipboard_text(scene_files.text_of(state))
-        imgui.same_line()
-        if imgui.button("Paste TOML", (half, 0.0)):
-            scene_files.take(state, imgui.get_clipboard_text())
+    imgui.new_line()
 
 
-def _columns() -> None:
-    imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch.value, 0.44)
-    imgui.table_setup_column("value", imgui.TableColumnFlags_.width_stretch.value, 0.56)
+def _files(state: WindowState) -> None:
+    width = (imgui.get_content_region_avail().x - 3.0 * imgui.get_style().item_spacing.x) / 4.0
+    imgui.set_next_item_width(2.0 * width + imgui.get_style().item_spacing.x)
+    edited, state.file = imgui.input_text("##file", state.file)
+    if edited:
+        state.replace_file = ""
+    wrapped_tooltip(f"A preset (.toml) or a picture saved here (.png). A bare name lies in {presets.user_presets_dir()}.")
+    imgui.same_line()
+    if imgui.button("Save", (width, 0.0)):
+        scene_files.save(state)
+    imgui.same_line()
+    if imgui.button("Load", (width, 0.0)):
+        scene_files.load(state)
+    half = 2.0 * width + imgui.get_style().item_spacing.x
+    if imgui.button("Copy as TOML", (half, 0.0)):
+        imgui.set_clipboard_text(scene_files.text_of(state))
+    imgui.same_line()
+    if imgui.button("Paste TOML", (half, 0.0)):
+        scene_files.take(state, imgui.get_clipboard_text())
 
 
 def _sections() -> Mapping[str, list[Field]]:
@@ -136,14 +116,14 @@ def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
     """A row for each of `items`, those of a plug-in under its name."""
     if not imgui.begin_table(name, 2):
         return
-    _columns()
+    columns()
     group, scene = None, state.scene  # as it was: another kind picked in one row has not the values of the next
     for item in items:
         plug_in = _plug_in_of(item)
         if plug_in != group:
             group = plug_in
             _subheading(group)
-        widgets.row(range_in(scene, item), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
+        widgets.row(range_in(scene, replace(item, default=state.in_force(item))), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
     imgui.end_table()
 
 
@@ -155,7 +135,7 @@ def _subheading(plug_in: catalogue.PlugIn | None) -> None:
     imgui.dummy((0.5 * hello_imgui.em_size(), 0.0))
     imgui.same_line(0.0, 0.35 * hello_imgui.em_size())
     imgui.text_colored(theme.ACCENT, plug_in.label)
-    _wrapped_tooltip(plug_in.summary)
+    wrapped_tooltip(plug_in.summary)
 
 
 def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
@@ -182,22 +162,14 @@ def _matches(item: Field, wanted: str) -> bool:
     return wanted in item.key.lower() or wanted in widgets.label_of(item.key).lower()
 
 
-def _departures(state: WindowState) -> None:
-    """A line that says which values make this picture art; nothing when there are none."""
+def _remarks(state: WindowState, warnings: Sequence[str]) -> None:
+    """A line that says what makes this picture worse than asked for, and which values make it art."""
     names = [widgets.label_of(item.key).lower() for item in state.scene.fields().values() if widgets.departs(item, state.scene.get(item.key))]
-    if names:
-        _remark("Departs from physics: " + ", ".join(names))
+    remarks = [warning[:1].upper() + warning[1:] for warning in warnings] + ["Departs from physics: " + ", ".join(names)] * bool(names)
+    _line(". ".join(remarks) or "Physics throughout", theme.DEPARTS if remarks else theme.DIM)
 
 
-def _remark(text: str) -> None:
-    imgui.push_style_color(imgui.Col_.text, theme.DEPARTS)
-    imgui.text_wrapped(text)
-    imgui.pop_style_color()
-
-
-def _wrapped_tooltip(text: str) -> None:
-    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip.value) and imgui.begin_tooltip():
-        imgui.push_text_wrap_pos(26.0 * hello_imgui.em_size())
-        imgui.text_unformatted(text)
-        imgui.pop_text_wrap_pos()
-        imgui.end_tooltip()
+def _line(text: str, colour: ImVec4) -> None:
+    """A remark that takes one line whatever it says, so that nothing below it moves while a value is dragged; a tooltip has all of it."""
+    imgui.text_colored(colour, text)
+    wrapped_tooltip(text)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..output import png
 from ..scene import Scene, presets
+from . import preset_switch
 from .state import WindowState
 
 
@@ -31,30 +32,36 @@ def save(state: WindowState) -> None:
         state.say(f"{path} exists. Save again to replace it.")
         return
     state.replace_file = ""
+    own = path.parent == presets.user_presets_dir()
+    if own and path.stem in {info.name for info in presets.available() if info.path.parent != path.parent}:
+        state.complain(f"{path.stem} is the name of a preset that comes with the program, which would hide yours: type another.")
+        return
     try:
-        presets.save(state.scene, path)
+        presets.save(state.scene, path, time=state.time, paused=state.paused)
     except presets.SceneError as error:
         state.complain(str(error))
         return
+    layered = {group: name for group, name in state.chosen.items() if group in preset_switch.LAYERED}
+    state.put_in_force(state.scene, layered | ({presets.USER_GROUP: path.stem} if own else {}))
     state.say(f"Saved {path}")
 
 
 def load(state: WindowState) -> None:
     """Shows the scene of the file named in the file field, a preset or a picture that was saved here."""
+    path = path_of(state.file)
     try:
-        scene, skipped = presets.load([path_of(state.file)]), presets.skipped([path_of(state.file)])
+        scene, preset = presets.load([path]), presets.read(path)
     except presets.SceneError as error:
         state.complain(str(error))
         return
-    state.chosen = {}
-    state.show(scene, as_home=True)
-    state.tell(f"Loaded {path_of(state.file)}", skipped)
+    _open(state, scene, preset)
+    state.tell(f"Loaded {path}", preset.skipped)
 
 
 def text_of(state: WindowState) -> str:
     """The scene as TOML for the clipboard."""
     state.say("The scene is in the clipboard, as TOML.")
-    return presets.dumps(state.scene)
+    return presets.dumps(state.scene, time=state.time, paused=state.paused)
 
 
 def take(state: WindowState, text: str) -> None:
@@ -67,16 +74,21 @@ def take(state: WindowState, text: str) -> None:
     except presets.SceneError as error:
         state.complain(str(error))
         return
-    state.chosen = {}
-    state.show(scene, as_home=True)
+    _open(state, scene, preset)
     state.tell("Took the scene from the clipboard.", preset.skipped)
+
+
+def _open(state: WindowState, scene: Scene, preset: presets.Preset) -> None:
+    """Shows `scene`, which no preset with a name says, from the time of the `preset` that it was in."""
+    state.put_in_force(scene, {})
+    state.play_from(preset)
 
 
 def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
     """Writes `pixels` ((height, width, 3) uint8, top row first) with the scene inside to a new file in `folder`."""
     path = _new_name(folder, datetime.now().strftime("blackhole-%Y%m%d-%H%M%S"))
     try:
-        png.write(path, pixels, presets.picture_text(state.scene, state.time, folder.absolute()))
+        png.write(path, pixels, presets.picture_text(state.scene, state.time, folder.absolute(), paused=state.paused))
     except OSError as error:
         state.complain(f"{path}: cannot be written: {error.strerror or error}")
         return

@@ -7,7 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..scene import Scene, SceneError
-from .camera_control import Motion, pose_of, values_of
+from ..scene.presets import Preset
+from ..scene.schema import Field, Value
+from .camera_control import Motion, clear_of_horizon, pose_of, values_of
+from .history import History, Moment
 
 NOTICE_SECONDS = 6.0
 MOST_TOLD = 5
@@ -29,9 +32,10 @@ class WindowState:
 
     Attributes:
         scene: the scene shown now.
-        home: the scene whose camera R returns to.
+        home: the scene as the presets in force or the opened file have it, which resets go back to.
         motion: the camera on its way.
-        chosen: preset group → name of the preset last picked in it.
+        chosen: preset group → name of the preset in force.
+        history: what can be undone and redone.
         time: scene time in r_s/c.
         clock: the window's own clock in seconds, advanced by each frame.
         holes: spinning or not → the values that S brings back.
@@ -44,6 +48,7 @@ class WindowState:
     scene: Scene
     home: Scene
     motion: Motion
+    history: History
     chosen: dict[str, str] = field(default_factory=dict)
     time: float = 0.0
     clock: float = 0.0
@@ -64,17 +69,63 @@ class WindowState:
     render_error: str | None = None
 
     @classmethod
-    def start(cls, scene: Scene, chosen: Mapping[str, str] | None = None) -> WindowState:
-        """The state of a window that has just opened on `scene`."""
-        return cls(scene=scene, home=scene, motion=Motion.at(scene), chosen=dict(chosen or {}))
+    def start(cls, scene: Scene, chosen: Mapping[str, str] | None = None, home: Scene | None = None) -> WindowState:
+        """The state of a window that has just opened on `scene`; `home` is `scene` where it is not given."""
+        chosen, home = dict(chosen or {}), home or scene
+        state = cls(scene, home, Motion.at(scene), History(Moment(scene, home, chosen)), chosen)
+        state.show(scene)
+        state.history = History(Moment(state.scene, home, chosen))
+        return state
 
-    def show(self, scene: Scene, *, as_home: bool = False) -> None:
-        """Shows `scene`; the camera jumps only where `scene` has it elsewhere. `as_home` makes it the scene that R returns to."""
-        if pose_of(scene) != pose_of(self.scene):
-            self.motion = Motion.at(scene)
-        self.scene = scene
-        if as_home:
-            self.home = scene
+    def put_in_force(self, home: Scene, chosen: Mapping[str, str], scene: Scene | None = None) -> None:
+        """Shows `scene`, or `home` itself, where `home` is what the presets `chosen` say: one step, whatever a gesture has done before."""
+        self.record()
+        self.home, self.chosen = home, dict(chosen)
+        self.show(scene or home)
+        self.record()
+
+    def show(self, scene: Scene) -> None:
+        """Shows `scene`; the camera jumps only where `scene` has it elsewhere, or where it would be inside the hole."""
+        shown = clear_of_horizon(scene)
+        if pose_of(shown) != pose_of(self.scene):
+            self.motion = Motion.at(shown)
+        self.scene = shown
+        if shown is not scene:
+            self.say(f"The camera would be inside this hole: it is moved out to {shown.camera.distance:.4g} r_s.")
+
+    def play_from(self, preset: Preset) -> None:
+        """Goes to the scene time that `preset` was saved at, running or paused as it was; one that says no time leaves both alone."""
+        if preset.time is not None:
+            self.time, self.paused = preset.time, preset.paused
+
+    def in_force(self, item: Field) -> Value:
+        """The value of `item` that the presets in force say; the default of one that they know nothing of."""
+        try:
+            return self.home.get(item.key)
+        except SceneError:
+            return item.default
+
+    def record(self) -> None:
+        """Makes what has changed since the last step a step that can be undone. The camera counts as where it is bound for."""
+        scene = self.scene
+        if not self.motion.at_rest:
+            scene = scene.with_values(values_of(self.motion.target, scene))
+        self.history = self.history.followed_by(Moment(scene, self.home, dict(self.chosen)))
+
+    def undo(self) -> None:
+        """Takes the last step back. Time, which runs by itself, goes on."""
+        self.record()
+        self._return_to(self.history.undone())
+
+    def redo(self) -> None:
+        """Takes the step again that was last undone."""
+        self.record()
+        self._return_to(self.history.redone())
+
+    def _return_to(self, history: History) -> None:
+        moment = history.present
+        self.history, self.home, self.chosen = history, moment.home, dict(moment.chosen)
+        self.show(moment.scene)
 
     def change(self, values: Mapping[str, Any]) -> None:
         """Puts `values` (dotted key → value) into the scene; what a field refuses becomes a notice."""

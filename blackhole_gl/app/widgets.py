@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..scene import catalogue, instances
+from ..scene import catalogue, fields, instances
 from ..scene.schema import Field, Value, describe, number_of
 from . import list_rows, text_fields, theme
 
@@ -98,8 +98,8 @@ def _tooltip(item: Field) -> None:
     if item.kind in ("text", "file", "list"):
         imgui.text_unformatted(f"{item.allowed()[0].upper()}{item.allowed()[1:]}.")
     if item.kind in ("float", "int"):
-        imgui.text_unformatted(f"{item.allowed()[0].upper()}{item.allowed()[1:]}; default {format_value(item, item.default)}.")
-        imgui.text_unformatted("Ctrl+click types a value. Double-click on the name resets.")
+        imgui.text_unformatted(f"{item.allowed()[0].upper()}{item.allowed()[1:]}; {format_value(item, item.default)} in the preset.")
+        imgui.text_unformatted("Ctrl+click types a value. Double-click resets.")
     imgui.text_unformatted(item.key)
     imgui.pop_style_color()
     imgui.pop_text_wrap_pos()
@@ -130,6 +130,8 @@ def _finite_slider(item: Field, value: float) -> float | None:
     flags = _FLAGS | (imgui.SliderFlags_.logarithmic.value if low > 0 and high / low >= _LOG_RATIO else 0)
     unit = item.unit.replace("%", "%%")
     edited, new = imgui.slider_float(f"##{item.key}", value, low, high, f"{_format(value)} {unit}".strip(), flags)
+    if _is_reset():
+        return number_of(item.default)
     if not edited:
         return None
     # The widget works in float32, in which 0.1 comes back as 0.10000000149; a dragged value needs no more digits than are shown.
@@ -159,20 +161,38 @@ def _slider_or_infinity(item: Field, value: float) -> float | None:
     imgui.same_line()
     toggled, now_far = imgui.checkbox(f"far##infinite {item.key}", far)
     if toggled:
-        return math.inf if now_far else number_of(item.default)
+        return math.inf if now_far else _near(item)
     return edited
+
+
+def _near(item: Field) -> float:
+    """Where a value of `item` goes that is to be infinite no more: to its default, or to that of the bare scene where that is infinite too."""
+    candidates = (number_of(item.default), number_of(fields().get(item.key, item).default), item.high)
+    return next(value for value in candidates if math.isfinite(value))
 
 
 def _whole_slider(item: Field, value: int) -> int | None:
     low, high = int(item.low), int(item.high)
     flags = _FLAGS | (imgui.SliderFlags_.logarithmic.value if low > 0 and high / low >= _LOG_RATIO else 0)
     edited, new = imgui.slider_int(f"##{item.key}", value, low, high, f"%d {item.unit}".strip(), flags)
+    if _is_reset():
+        return int(number_of(item.default))
     return new if edited else None
 
 
 def _switch(item: Field, value: bool) -> bool | None:
     edited, new = imgui.checkbox(f"##{item.key}", value)
+    if _is_reset():
+        return bool(item.default)
     return new if edited else None
+
+
+def _is_reset() -> bool:
+    """Whether the last widget was double-clicked. It lets go of the mouse, which would move its value again."""
+    if imgui.get_io().key_ctrl or not (imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left)):
+        return False
+    imgui.internal.clear_active_id()
+    return True
 
 
 def _slot_of(key: str) -> str | None:
@@ -200,11 +220,18 @@ def _widget(item: Field, value: Value, unfit: Mapping[str, str] = MappingProxyTy
     raise TypeError(f"{item.key}: got {describe(value)}, which has no widget of its own")
 
 
+def _is_combo_reset() -> bool:
+    """Whether the combo that is to be drawn next is double-clicked: the first click opens its list, which then has the mouse."""
+    low, size = imgui.get_cursor_screen_pos(), (imgui.calc_item_width(), imgui.get_frame_height())
+    over = imgui.is_mouse_hovering_rect(low, (low.x + size[0], low.y + size[1]))
+    return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left) and imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
+
+
 def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     slot = _slot_of(item.key)
     plug_ins = catalogue.plug_ins(slot) if slot else {}
     names = {option: plug_ins[option].label if option in plug_ins else option.replace("_", " ") for option in item.options}
-    picked = None
+    picked = str(item.default) if _is_combo_reset() else None
     if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
         for option, name in names.items():
             grey = imgui.SelectableFlags_.disabled.value if option in unfit else 0

@@ -21,6 +21,7 @@ from . import commands, help_window, keys, overlay, preset_switch, runner, scene
 from .area import Area
 from .ending import Ending
 from .full_screen import FullScreen
+from .gesture import Gesture
 from .live_chart import LiveChart
 from .mouse import Mouse
 from .opening import WindowError, open_platform
@@ -131,6 +132,7 @@ class Window:
         self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
         self._mouse = Mouse()
         self._panel_width = PanelWidth()
+        self._gesture = Gesture()
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -143,7 +145,7 @@ class Window:
         self._drawn_scene = scene
 
     def open(self, scene: Scene, preset_names: Sequence[str] = ()) -> None:
-        """Starts afresh on `scene`, made from the presets of these names."""
+        """Starts afresh on `scene`, made from the presets of these names, or from none."""
         self.state = preset_switch.start(scene, preset_names)
         self.state.shader_error = _shader_mistakes(())
         self._panel = Panel()
@@ -195,6 +197,8 @@ class Window:
         hand = commands.Hand(*self._mouse.poll(view.height), held)
         state.dragging = self._mouse.drags
         commands.advance(state, hand, dt)
+        if not self._gesture.lasts(hand, state.clock):
+            state.record()
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
         em = hello_imgui.em_size()
@@ -229,6 +233,7 @@ class Window:
     def do(self, action: str) -> None:
         """Does what the key of `action` does."""
         state = self.state
+        state.record()
         if action == "save":
             scene_files.save(state)
         elif action == "copy":

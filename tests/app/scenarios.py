@@ -213,6 +213,86 @@ def panel_edits_and_resets(hands: Hands) -> None:
     assert hands.scene.camera.distance == 20.0
 
 
+def double_click_on_a_widget_brings_the_presets_value(hands: Hands) -> None:
+    """A number, a choice and a switch, of a preset whose values are not the defaults."""
+    preset_switch.pick(hands.state, "physics", "thin_disk")
+    in_force = hands.scene
+    hands.context.item_input_value(hands.item("##disk.outer_radius"), 7.0)
+    hands.context.item_double_click(hands.item("##disk.outer_radius"))
+    assert hands.scene.disk.outer_radius == 10.0
+    hands.choose("##disk.temperature_law", "tapered##tapered", table="values of disk/")
+    assert hands.scene.disk.temperature_law == "tapered"
+    hands.context.item_double_click(f"//{PANEL}/values of disk/##disk.temperature_law")
+    hands.context.yield_(2)
+    assert hands.scene.disk.temperature_law == "shakura_sunyaev" != fields()["disk.temperature_law"].default
+    assert not imgui.internal.find_window_by_name("##Combo_00").active, "and the list is closed"
+    hands.click("##disk.beaming")
+    hands.context.item_double_click(hands.item("##disk.beaming"))
+    hands.context.yield_(2)
+    assert hands.scene == in_force
+    hands.fill("##filter", "orders")
+    hands.fill("##rays.orders", 1)
+    hands.context.item_double_click(hands.item("##rays.orders"))
+    hands.context.yield_(2)
+    assert hands.scene == in_force
+
+
+def undo_and_redo_by_keys_and_buttons(hands: Hands) -> None:
+    """A drag of a slider is one step, and so is one of the mouse."""
+    before = hands.scene
+    hands.context.item_drag_with_delta(hands.item("##hole.spin"), (-60.0, 0.0))
+    hands.context.yield_(2)
+    slid = hands.scene
+    x, y = hands.to_picture()
+    hands.context.mouse_down(0)
+    for step in range(6):
+        hands.context.mouse_move_to_pos((x + 20 * step, y))
+    hands.context.mouse_up(0)
+    hands.settle()
+    turned = hands.scene
+    assert turned.camera != slid.camera and slid.hole.spin != before.hole.spin
+    hands.press(Key.mod_ctrl | Key.z)
+    assert hands.scene == slid
+    hands.press(Key.mod_ctrl | Key.z)
+    assert hands.scene == before
+    hands.press(Key.mod_ctrl | Key.y)
+    assert hands.scene == slid
+    hands.click("Redo")
+    assert hands.scene == turned
+    hands.click("Undo")
+    hands.press(Key.mod_ctrl | Key.mod_shift | Key.z)
+    assert hands.scene == turned
+    hands.click("Reset all")
+    assert hands.scene == hands.state.home
+    hands.click("Undo")
+    assert hands.scene == turned
+    hands.hold(Key.mod_shift | Key.r, 0.0, character="R")
+    hands.context.yield_(2)
+    assert hands.scene == hands.state.home
+
+
+def nothing_in_the_panel_moves_when_a_value_changes(hands: Hands) -> None:
+    def places() -> dict[str, float]:
+        hands.context.scroll_to_top(f"//{PANEL}")
+        hands.context.yield_(2)
+        items = ("##hole.gravity_strength", "##camera.inclination_deg", "##disk.outer_radius")
+        return {item: hands.context.item_info(hands.item(item)).rect_full.min.y for item in items}
+
+    before = places()
+    for changed in ({"hole.gravity_strength": 2.5}, {"rays.lensing": False, "disk.beaming": False, "disk.redshift": False}, {"hole.spin": 0.0}):
+        hands.state.change(changed)
+        assert places() == before, changed
+
+
+def what_is_saved_appears_in_the_picker(hands: Hands) -> None:
+    hands.fill("##file", "mine")
+    hands.press(Key.mod_ctrl | Key.s)
+    assert hands.state.chosen["user"] == "mine"
+    hands.choose("##Scene preset", "Luminet 1979##luminet_1979")
+    hands.choose("##Scene preset", "mine##mine")
+    assert hands.scene.hole.spin == 0.9
+
+
 def distance_in_the_panel_ends_above_the_horizon(hands: Hands) -> None:
     hands.fill("##camera.distance", 0.6)
     horizon = space_time(hands.scene).horizon_radius

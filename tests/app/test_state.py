@@ -2,10 +2,12 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from blackhole_gl.app import commands, preset_switch, scene_files
 from blackhole_gl.app.commands import Hand, advance
+from blackhole_gl.app.history import LONGEST
 from blackhole_gl.app.state import NOTICE_SECONDS, WindowState
 from blackhole_gl.scene import Scene, presets
 
@@ -183,3 +185,177 @@ def test_names_in_the_file_field(state, tmp_path):
     state.file = "nowhere"
     scene_files.load(state)
     assert state.notice.is_error and "nowhere" in state.notice.text
+
+
+def test_undo_and_redo_go_through_values_presets_and_the_camera(state):
+    start = state.scene
+    state.change({"post.exposure": -8.0})
+    state.record()
+    preset_switch.pick(state, "look", "particle_storm")
+    stormy = state.scene
+    advance(state, Hand(drag=(0.2, 0.1)), 1 / 60)
+    state.record()
+    for _ in range(200):
+        advance(state, Hand(), 1 / 60)
+        state.record()
+    turned = state.scene
+    assert len(state.history.past) == 3, "a camera that follows the hand is one step"
+    state.undo()
+    assert state.scene == stormy and state.motion.at_rest
+    state.undo()
+    assert state.scene.post.exposure == -8.0 and "look" not in state.chosen
+    state.undo()
+    state.undo()
+    assert state.scene == start
+    for _ in range(3):
+        state.redo()
+    assert state.scene == turned and state.chosen["look"] == "particle_storm"
+    state.undo()
+    state.change({"post.exposure": 1.0})
+    state.redo()
+    assert state.scene.post.exposure == 1.0, "what is changed after an undo ends what could be redone"
+
+
+def test_history_is_bounded(state):
+    for number in range(LONGEST + 50):
+        state.change({"post.exposure": number / 100.0})
+        state.record()
+    assert len(state.history.past) == LONGEST
+
+
+def test_everything_goes_back_to_the_presets_in_force(state):
+    preset_switch.pick(state, "look", "particle_storm")
+    in_force = state.scene
+    state.change({"post.exposure": -8.0, "camera.distance": 55.0, "hole.spin": 0.1, "camera.yaw_deg": 4.0})
+    preset_switch.pick(state, "look", "minimal_bloom")
+    assert state.scene.post.exposure == -8.0, "a preset that says nothing of it leaves it"
+    preset_switch.pick(state, "look", "particle_storm")
+    commands.reset_all(state)
+    assert state.scene == in_force == presets.load(["kerr", "particle_storm"])
+
+
+def test_what_was_set_on_the_command_line_is_no_preset():
+    scene = presets.load(["kerr"], {"hole.spin": 0.2})
+    state = preset_switch.start(scene, ["kerr"])
+    assert state.scene == scene and state.home == presets.load(["kerr"])
+    assert preset_switch.start(presets.load(["smooth"]), ["smooth"]).chosen == {"physics": "kerr", "look": "smooth", "quality": "automatic"}
+
+
+def test_a_lower_layer_leaves_what_an_upper_one_sets(state):
+    preset_switch.pick(state, "look", "particle_storm")
+    preset_switch.pick(state, "physics", "thin_disk")
+    assert state.scene == presets.load(["thin_disk", "particle_storm"])
+
+
+def test_a_hole_that_grows_moves_the_camera_out(state):
+    state.change({"camera.distance": 0.9})
+    assert state.notice is None
+    commands.toggle_spin(state)
+    assert state.scene.hole.spin == 0.0 and state.scene.camera.distance == 1.5
+    assert "moved out to 1.5 r_s" in state.notice.text
+    for _ in range(10):
+        advance(state, Hand(), 1 / 60)
+    assert state.scene.camera.distance == 1.5
+
+
+def notches(state, direction):
+    count = 0
+    while state.notice is None:
+        advance(state, Hand(wheel=direction), 1 / 60)
+        count += 1
+    for _ in range(200):
+        advance(state, Hand(), 1 / 60)
+    return count
+
+
+@pytest.mark.parametrize("spin", [0.0, 0.9, -0.9999])
+def test_the_wheel_ends_where_the_hole_is_still_seen(state, spin):
+    state.change({"hole.spin": spin})
+    assert notches(state, 1.0) < 40
+    near = state.scene.camera.distance
+    assert 1.2 < near <= 1.5, "half the sky is dark here, and there is the other half"
+    state.notice = None
+    notches(state, -1.0)
+    camera = state.scene.camera
+    shadow = 2.0 * math.degrees(math.sqrt(27.0) / 2.0 / camera.distance)
+    assert 0.009 < shadow / camera.fov_deg < 0.011, "a hundredth of the picture's height"
+
+
+def test_a_camera_beyond_the_hands_reach_may_stay_and_come_back(state):
+    state.change({"camera.distance": 5000.0})
+    advance(state, Hand(wheel=-1.0), 1 / 60)
+    assert state.motion.target == state.motion.current
+    advance(state, Hand(wheel=1.0), 1 / 60)
+    assert state.motion.target.reach < state.motion.current.reach
+
+
+def test_the_wheel_keeps_a_far_cameras_hole_in_sight(state):
+    state.change({"camera.distance": math.inf})
+    notches(state, 1.0)
+    assert 4.0 < state.scene.camera.field_m < 6.0
+    state.notice = None
+    notches(state, -1.0)
+    assert 1000.0 < state.scene.camera.field_m < 1100.0
+
+
+def test_what_is_saved_is_in_force_at_once(state):
+    state.change({"disk.outer_radius": 7.0})
+    state.file, state.time, state.paused = "mine", 12.5, True
+    scene_files.save(state)
+    assert state.chosen == {"physics": "kerr", "user": "mine"} and state.home == state.scene
+    state.file = "kerr"
+    scene_files.save(state)
+    assert state.notice.is_error and "comes with the program" in state.notice.text
+    saved = state.scene
+    preset_switch.pick(state, "scene", "luminet_1979")
+    state.time, state.paused = 0.0, False
+    preset_switch.pick(state, "user", "mine")
+    assert state.scene == saved and (state.time, state.paused) == (12.5, True)
+
+
+@pytest.mark.parametrize("by", ["toml", "png", "clipboard"])
+def test_scene_and_time_open_as_they_were(state, tmp_path, by):
+    state.change({"camera.yaw_deg": 3.25, "camera.pitch_deg": -1.5, "camera.roll_deg": 7.0, "playback.rate": 2.5, "sky.brightness": 0.1 + 0.2})
+    state.time, state.paused = 17.123456789012345, True
+    as_it_was = state.scene, state.time, state.paused
+    if by == "png":
+        scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), tmp_path)
+        state.file = str(next(tmp_path.glob("*.png")))
+    elif by == "toml":
+        state.file = str(tmp_path / "a.toml")
+        scene_files.save(state)
+    text = scene_files.text_of(state)
+    state.change({"camera.yaw_deg": 0.0, "playback.rate": 1.0})
+    state.time, state.paused = 0.0, False
+    if by == "clipboard":
+        scene_files.take(state, text)
+    else:
+        scene_files.load(state)
+    assert (state.scene, state.time, state.paused) == as_it_was
+
+
+def remarks(state):
+    in_force = {group: presets.read(name) for group, name in state.chosen.items()}
+    return {group: preset_switch.remark(keys) for group, keys in preset_switch.left(state.scene, in_force).items()}
+
+
+def test_a_preset_that_the_scene_has_left_is_called_modified(state):
+    preset_switch.pick(state, "look", "smooth")
+    assert remarks(state) == {"physics": "", "look": ""}
+    state.change({"camera.inclination_deg": 20.0})
+    assert remarks(state) == {"physics": " · camera moved", "look": ""}
+    commands.toggle_spin(state)
+    assert remarks(state) == {"physics": " · modified", "look": ""}
+    commands.toggle_spin(state)
+    commands.reset_camera(state)
+    for _ in range(300):
+        advance(state, Hand(), 1 / 60)
+    assert remarks(state) == {"physics": "", "look": ""}, "it says what is so, whatever has been in between"
+    preset_switch.pick(state, "scene", "luminet_1979")
+    state.change({"post.exposure": 1.0})
+    assert remarks(state) == {"scene": " · modified", "quality": ""}, "a whole scene says everything"
+
+
+def test_a_value_from_the_command_line_is_a_modification():
+    state = preset_switch.start(presets.load(["kerr"], {"hole.spin": 0.2}), ["kerr"])
+    assert remarks(state) == {"physics": " · modified", "quality": ""}

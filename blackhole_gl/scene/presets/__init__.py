@@ -32,12 +32,13 @@ from .. import Scene, fields, instances
 from ..catalogue import KIND
 from ..schema import SceneError
 from . import paths
+from .comparison import departures, differing
 from .reading import GROUPS, Preset, PresetError, parse, unknown_key
 from .writing import dumps, picture_text, save, version
 
 __all__ = [
-    "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "dumps", "from_png",
-    "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir", "version",
+    "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "departures", "differing", "dumps", "from_png",
+    "last_timed", "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir", "version",
 ]
 
 USER_GROUP = "user"
@@ -48,13 +49,14 @@ _PARTIAL_GROUPS = ("look", "quality", "steps")
 
 @dataclass(frozen=True)
 class PresetInfo:
-    """One line of the list of presets; `group` is one of `GROUPS` or ``user``."""
+    """One line of the list of presets; `group` is one of `GROUPS` or ``user``, `moves_camera` whether it says where the camera is."""
 
     group: str
     name: str
     title: str
     description: str
     path: Path
+    moves_camera: bool
 
 
 def available() -> list[PresetInfo]:
@@ -70,7 +72,8 @@ def available() -> list[PresetInfo]:
             preset = Preset(title=f"{name} (cannot be read)", description=str(error))
         group = shipped or preset.group or USER_GROUP
         place = (not shipped, (*GROUPS, USER_GROUP).index(group), preset.rank)
-        found.append((place, PresetInfo(group, name, preset.title or name, preset.description, path)))
+        moves_camera = any(key.startswith("camera.") for key in preset.values)
+        found.append((place, PresetInfo(group, name, preset.title or name, preset.description, path, moves_camera)))
     return [info for _, info in sorted(found, key=lambda entry: entry[0])]
 
 
@@ -115,7 +118,7 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
     """
     wanted = [names_or_paths] if isinstance(names_or_paths, (str, Path)) else list(names_or_paths)
     layers = [read(item) for item in wanted]
-    if all(layer.group in _PARTIAL_GROUPS for layer in layers):
+    if _are_partial(layers):
         layers = [read(item) for item in DEFAULT_PRESETS] + layers
     scene = Scene()
     for layer in layers:
@@ -130,6 +133,28 @@ def skipped(names_or_paths: Iterable[str | Path]) -> list[str]:
         PresetError: see `read`.
     """
     return [sentence for item in names_or_paths for sentence in read(item).skipped]
+
+
+def last_timed(names_or_paths: Iterable[str | Path]) -> Preset | None:
+    """The last of these presets that was saved at a scene time; None where there is none.
+
+    Raises:
+        PresetError: see `read`.
+    """
+    return next((preset for preset in reversed([read(item) for item in names_or_paths]) if preset.time is not None), None)
+
+
+def with_default(names_or_paths: Sequence[str | Path]) -> list[str | Path]:
+    """`names_or_paths`, over `DEFAULT_PRESETS` where nothing but looks, qualities and steps is among them.
+
+    Raises:
+        PresetError: see `read`.
+    """
+    return [*(DEFAULT_PRESETS if _are_partial(read(item) for item in names_or_paths) else ()), *names_or_paths]
+
+
+def _are_partial(layers: Iterable[Preset]) -> bool:
+    return all(layer.group in _PARTIAL_GROUPS for layer in layers)
 
 
 def renamed(names_or_paths: Sequence[str | Path]) -> dict[str, str]:

@@ -21,6 +21,8 @@ from . import paths
 GROUPS = ("physics", "look", "quality", "steps", "scene")
 _TEXT_ENTRIES = ("title", "description", "group", "formerly", "version")
 _NUMBER_ENTRIES = ("rank", "time")
+_SWITCH_ENTRIES = ("paused",)
+_ABOUT = _TEXT_ENTRIES + _NUMBER_ENTRIES + _SWITCH_ENTRIES
 
 
 class PresetError(SceneError):
@@ -46,7 +48,8 @@ class Preset:
         group: one of `GROUPS`, or empty.
         formerly: the name it had, by which it is still found; empty where it had no other.
         rank: place in lists of its group, smallest first.
-        time: scene time of the picture it came from, r_s/c; None for other presets.
+        time: scene time at which it was saved, r_s/c; None for presets of no time.
+        paused: whether time stood still then.
         values: the scene's values it sets, by dotted key, checked; but those of an instance whose kind it leaves to other presets are as they
             stand in the file.
         skipped: a sentence for each entry that this version does not know, as a newer one's file may have; the rest counts.
@@ -62,6 +65,7 @@ class Preset:
     version: str = ""
     rank: float = 100.0
     time: float | None = None
+    paused: bool = False
     values: Mapping[str, Any] = field(default_factory=dict)
     skipped: tuple[str, ...] = ()
     source: str = "preset"
@@ -114,7 +118,7 @@ class _Reader:
     def read(self, data: Mapping[str, Any], folder: Path | None) -> Preset:
         about: dict[str, Any] = {}
         for name, value in data.items():
-            if name in _TEXT_ENTRIES + _NUMBER_ENTRIES:
+            if name in _ABOUT:
                 about[name] = self._about(name, value)
             elif name in instances.SLOTS:
                 self._section_of_instances(name, value)
@@ -122,11 +126,15 @@ class _Reader:
                 self._walk(_quoted(name), value)
         return Preset(**about, values=self._values, skipped=tuple(self._skipped), source=self._source, folder=folder, text=self._text)
 
-    def _about(self, name: str, value: Any) -> str | float:
+    def _about(self, name: str, value: Any) -> str | float | bool:
         if name in _NUMBER_ENTRIES:
             allowed = "a finite number"
             if type(value) in (int, float) and abs(value) < WHOLE_NUMBER_LIMIT:
                 return float(value)
+        elif name in _SWITCH_ENTRIES:
+            allowed = "true or false"
+            if isinstance(value, bool):
+                return value
         elif name == "group":
             allowed = "one of " + ", ".join(GROUPS)
             if value in GROUPS:
@@ -210,7 +218,7 @@ def unknown_key(key: str) -> str:
         allowed = [known for known in fields() if known.startswith(section + ".")]
     else:
         named = (f"[{section}.NAME]" for section in instances.SLOTS)
-        allowed = [*(f"[{table}]" for table in tables() if "." not in table), *named, *_TEXT_ENTRIES, *_NUMBER_ENTRIES]
+        allowed = [*(f"[{table}]" for table in tables() if "." not in table), *named, *_ABOUT]
     return f"no such key{hint} Allowed here are {', '.join(allowed)}"
 
 

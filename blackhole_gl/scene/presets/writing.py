@@ -17,23 +17,48 @@ from . import paths
 from .reading import GROUPS, PresetError, tables
 
 
-def dumps(scene: Scene, full: bool = False, *, title: str = "", description: str = "", group: str = "", folder: Path | None = None) -> str:
+def dumps(
+    scene: Scene,
+    full: bool = False,
+    *,
+    title: str = "",
+    description: str = "",
+    group: str = "",
+    time: float | None = None,
+    paused: bool = False,
+    folder: Path | None = None,
+) -> str:
     """`scene` as a preset's TOML: what differs from the defaults, or with `full` everything, units as comments; of instances always the kind.
 
-    Reading it gives back exactly `scene`; from a file in `folder`, too, which paths below it are made relative to.
+    Reading it gives back exactly `scene`; from a file in `folder`, too, which paths below it are made relative to. With the `time` (r_s/c) it gives
+    back the picture.
     """
-    return _dump(scene, full, {"title": title, "description": description, "group": group}, folder)
+    return _dump(scene, full, {"title": title, "description": description, "group": group, **_moment(time, paused)}, folder)
 
 
-def picture_text(scene: Scene, time: float, folder: Path | None = None) -> str:
-    """The whole of `scene`, the time (r_s/c) and our version as TOML: what a picture saved in `folder` carries.
+def picture_text(scene: Scene, time: float, folder: Path | None = None, *, paused: bool = False) -> str:
+    """The whole of `scene`, the time (r_s/c), whether it stood still, and our version as TOML: what a picture saved in `folder` carries.
 
     What plug-ins of the user's have that the picture does not use is left out: it is to open where there are none.
     """
-    return _dump(scene, True, {"time": float(time), "version": version()}, folder, _idle(scene))
+    return _dump(scene, True, {**_moment(time, paused), "version": version()}, folder, _idle(scene))
 
 
-def save(scene: Scene, path: str | Path, *, title: str = "", description: str = "", group: str = "", full: bool = False) -> Path:
+def _moment(time: float | None, paused: bool) -> dict[str, str | float | bool]:
+    return {} if time is None else {"time": float(time), **({"paused": True} if paused else {})}
+
+
+def save(
+    scene: Scene,
+    path: str | Path,
+    *,
+    title: str = "",
+    description: str = "",
+    group: str = "",
+    time: float | None = None,
+    paused: bool = False,
+    full: bool = False,
+) -> Path:
     """Writes `scene` as a preset to `path`, whole or not at all, and returns the path.
 
     Raises:
@@ -45,7 +70,7 @@ def save(scene: Scene, path: str | Path, *, title: str = "", description: str = 
     if group and group not in GROUPS:
         raise PresetError(f"got {group!r}; allowed is one of {', '.join(GROUPS)}", key="group", source=str(path))
     try:
-        text = dumps(scene, full, title=title, description=description, group=group, folder=path.absolute().parent)
+        text = dumps(scene, full, title=title, description=description, group=group, time=time, paused=paused, folder=path.absolute().parent)
         files.write_whole(path, text.encode("utf-8"))
     except OSError as error:
         raise PresetError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
@@ -62,7 +87,7 @@ def version() -> str:
         return "unknown"
 
 
-def _dump(scene: Scene, full: bool, about: Mapping[str, str | float], folder: Path | None, idle: Set[str] = frozenset()) -> str:
+def _dump(scene: Scene, full: bool, about: Mapping[str, str | float | bool], folder: Path | None, idle: Set[str] = frozenset()) -> str:
     document = tomlkit.document()
     for name, said in about.items():
         if said != "":
