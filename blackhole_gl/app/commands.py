@@ -164,4 +164,5 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "overlay": flip("show_overlay"),
     "chart": flip("show_chart"),
     "paths": flip("show_paths"),
+    "sides": flip("show_sides"),
 }

@@ -17,6 +17,7 @@ _MOUSE = (
     ("Middle drag", "Move closer (up) or away (down)"),
     ("Right drag", "Look around"),
     ("Click, with the path view open", "Show the ray of that pixel"),
+    ("Drag the divider", "More of one side"),
     ("Double-click a value", "Back to the preset's"),
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),

@@ -80,6 +80,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),
     Action("paths", ("G",), "Show or hide the path view: a click on the picture shows that ray in space, step by step"),
+    Action("sides", ("D",), "Divide the picture or not: another method or preset on the right, with the error and cost of both"),
     Action("save", ("CTRL+S",), "Save the scene"),
     Action("copy", ("CTRL+SHIFT+C",), "Copy the scene as TOML"),
     Action("paste", ("CTRL+SHIFT+V",), "Take the scene from the clipboard"),

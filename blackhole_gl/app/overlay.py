@@ -14,8 +14,8 @@ from .picture import Picture
 from .state import Notice, WindowState
 
 _FLAGS = imgui.WindowFlags_
-_STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
-_FIXED = (_STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
+STILL = _FLAGS.no_decoration | _FLAGS.no_docking | _FLAGS.no_move | _FLAGS.no_nav | _FLAGS.no_saved_settings
+_FIXED = (STILL | _FLAGS.always_auto_resize | _FLAGS.no_focus_on_appearing).value
 UNTOUCHED = _FIXED | _FLAGS.no_inputs.value
 
 _COMPASS_EM = 6.0  # its width and height

@@ -130,6 +130,10 @@ class Picture:
         """Fills `area` of `window` with the picture, and the rest with black."""
         self._targets.draw(window, area)
 
+    def draw_part(self, window: moderngl.Framebuffer, area: Area, part: Area) -> None:
+        """Puts that `part` of the picture in `area` over what `window` holds."""
+        self._targets.draw_part(window, area, part)
+
     def count_rays(self) -> None:
         """Brings `rays` up to date with the hit map. A part of it is read back, so this is for frames in which no rays are traced."""
         if self._rays_stale and self._readiness.is_over and self.is_sharp:

@@ -60,6 +60,7 @@ class WindowState:
     show_overlay: bool = True
     show_chart: bool = False
     show_paths: bool = False
+    show_sides: bool = False
     full_screen: bool = False
     picture_wanted: bool = False
     file: str = "scene.toml"

@@ -102,6 +102,20 @@ class Targets:
             window.use()
             return
         self._clear_beside(window, area)
+        self._draw_shown(area)
+
+    def draw_part(self, window: moderngl.Framebuffer, area: Area, part: Area) -> None:
+        """Puts that `part` of the picture in `area` over what `window` holds, which is not the picture itself."""
+        if part.is_empty:
+            return
+        window.use()
+        self._gl.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        window.scissor = part.viewport
+        self._draw_shown(area)
+        window.scissor = None  # type: ignore[assignment]  # moderngl's stubs lack what they say in words: None is the whole
+
+    def _draw_shown(self, area: Area) -> None:
+        """Fills `area` of the bound framebuffer."""
         if self._shown is None or area.is_empty:
             return
         texture = self._shown.texture

@@ -31,6 +31,7 @@ from .path_view import PathView
 from .picture import Picture
 from .preparation import Preparation
 from .shortcuts import Layout, Shortcuts
+from .side_by_side import SideBySide
 from .state import WindowState
 from .warm_up import WarmUp
 
@@ -138,6 +139,7 @@ class Window:
         self.live_chart = LiveChart(make_renderer)
         self.path_view = PathView()
         self.warm_up = WarmUp()
+        self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
         self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
@@ -180,7 +182,7 @@ class Window:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
-        busy = self.state.is_moving or self.live_chart.busy(self.state) or self.path_view.busy or self._has_more_to_draw()
+        busy = self.state.is_moving or self.live_chart.busy(self.state) or self.path_view.busy or self.side_by_side.busy(self.state) or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
@@ -210,6 +212,7 @@ class Window:
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
+        self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
 
     def draw_panel(self) -> None:
         """The panel's own window."""
@@ -227,6 +230,7 @@ class Window:
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture.draw(window, view.area)
+        self.side_by_side.draw(self.state, window, view.area)
 
     # --- parts of a frame ---
 
@@ -279,6 +283,7 @@ class Window:
         editing = self._is_editing()
         moving = (state.is_moving or editing) and not state.picture_wanted
         camera_moving = editing or state.camera_moves
+        self.side_by_side.advance(self._gl, state, area, glfw.get_time(), moving=moving, camera_moving=moving and camera_moving)
         try:
             rendered = self.picture.update(
                 state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted, window=window
@@ -327,6 +332,7 @@ class Window:
             return  # the very list: no file has changed
         self.state.shader_error = _shader_mistakes(errors)
         self.picture.forget()
+        self.side_by_side.reload()
 
 
 def _shader_mistakes(errors: Iterable[Exception]) -> str | None:

@@ -539,6 +539,41 @@ def path_view(hands: Hands) -> None:
     assert not hands.state.show_paths and len(paths.shown) == 1 and not hands.state.render_error
 
 
+def side_by_side(hands: Hands) -> None:
+    """D divides the picture. Both sides follow the camera, each keeps its hits, and the divider is dragged without tracing anything."""
+    hands.press(Key.p)
+    hands.state.change({"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "radius", "rays.step_length": 0.5})
+    hands.press(Key.d)
+    divided = hands.window.side_by_side
+    wait(hands, lambda: hands.window.picture.is_final and not divided.busy(hands.state), seconds=100.0)
+    assert divided.failure is None
+    left, right = divided.figures
+    assert right.error_px == 0.0 and left.error_px > 5.0 and 1.0 < left.cost and 1.0 < right.cost, (left, right)
+    maps = [picture.renderer.hit_map for picture in (hands.window.picture, divided.picture)]
+    traces, camera = [kept.traces for kept in maps], hands.scene.camera
+    hands.context.item_drag_with_delta("//##divider/handle", (-100.0, 0.0))
+    hands.context.yield_(3)
+    assert abs(divided.sides.share - (0.5 - 100.0 / hands.window.view().width)) < 0.01
+    assert hands.scene.camera == camera and [kept.traces for kept in maps] == traces, "the divider moves, and nothing else"
+    hands.context.key_hold(Key.left_arrow, 0.3)
+    hands.settle()
+    wait(hands, lambda: hands.window.picture.is_sharp and divided.picture.is_sharp, seconds=60.0)
+    assert hands.scene.camera.azimuth_deg != camera.azimuth_deg
+    assert divided.sides.other(hands.scene).camera == hands.scene.camera
+    hands.context.item_click("//Side by side/Keep this picture there")
+    hands.state.change({"hole.spin": 0.2, "rays.model": "auto", "rays.integrator": "auto"})
+    assert divided.sides.other(hands.scene).hole.spin == 0.9
+    hands.context.item_click("//Side by side/Swap")
+    hands.context.yield_(2)
+    assert hands.scene.hole.spin == 0.9 and divided.sides.other(hands.scene).hole.spin == 0.2
+    hands.context.item_click("//Side by side/##other side")
+    hands.context.item_click("//##Combo_00/Schwarzschild##schwarzschild")
+    wait(hands, lambda: hands.window.picture.is_current and divided.picture.is_current and divided.failure is None, seconds=60.0)
+    assert divided.sides.other(hands.scene).hole.spin == 0.0 and divided.sides.other(hands.scene).camera == hands.scene.camera
+    hands.press(Key.d)
+    assert not hands.state.show_sides and not divided.busy(hands.state) and not hands.state.render_error
+
+
 def preset_switches_never_freeze(hands: Hands) -> None:
     """Every shipped preset picked in turn, with nothing compiled before: no frame is long, and the old picture stays until the new one is there."""
     picture, frames = hands.window.picture, Frames(hands.window)
@@ -617,4 +652,4 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
-WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, path_view, preset_switches_never_freeze)
+WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, path_view, side_by_side, preset_switches_never_freeze)

@@ -45,6 +45,25 @@ def test_neighbouring_areas_leave_no_gap_at_odd_scales():
     assert left.x + left.width == right.x
 
 
+def test_a_part_of_a_picture_lies_over_what_is_there(ctx):
+    area, window = Area(2, 1, 8, 4), ctx.simple_framebuffer((12, 6))
+    there, over = (Picture(ctx, FakeRenderer(ctx), Preparation(None)) for _ in range(2))
+    for picture, azimuth in ((there, -180.0), (over, 180.0)):
+        while not picture.is_current:
+            picture.update(Scene().with_values({"camera.azimuth_deg": azimuth}), 0.0, area, moving=False, camera_moving=False)
+    there.draw(window, area)
+    over.draw_part(window, area, Area(7, 1, 3, 4))
+    red = np.frombuffer(window.read(components=3, alignment=1), np.uint8).reshape(6, 12, 3)[..., 0]
+    assert (red[1:5, 2:7] == 64).all() and (red[1:5, 7:10] == 191).all()
+    outside = np.ones_like(red, bool)
+    outside[1:5, 2:10] = False
+    assert not red[outside].any(), "black beside the picture"
+    over.draw_part(window, area, Area(10, 1, 0, 4))
+    there.draw(window, area)
+    red = np.frombuffer(window.read(components=3, alignment=1), np.uint8).reshape(6, 12, 3)[..., 0]
+    assert (red[1:5, 2:10] == 64).all(), "nothing of the part stays set"
+
+
 class Renderer(FakeRenderer):
     """Compiles a program for each integrator and look, unless its deadline has passed."""
 
