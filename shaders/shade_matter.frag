@@ -74,7 +74,7 @@ Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
     vec2 across = vec2(-heading.y, heading.x);
     vec2 radial = vec2(dot(crossing.right, heading), dot(crossing.up, heading));
     vec2 around = vec2(dot(crossing.right, across), dot(crossing.up, across));
-    DiskMatter matter = DiskMatter(r, heading, vec2(length(radial), length(around)) / r, 1.0);
+    DiskMatter matter = DiskMatter(r, heading, vec2(length(radial), length(around)) * (block_side / r), 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
 
     vec2 look = disk_appearance(matter.density) * disk_cover(crossing);
@@ -133,7 +133,7 @@ Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
 
 void main() {
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
+    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
 
     Light light = Light(vec3(0.0), vec3(1.0));
 #if MEETINGS

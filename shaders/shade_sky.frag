@@ -29,14 +29,14 @@ void main() {
     Hits hits = fetch_escape(ivec2(gl_FragCoord.xy));
     float escaped = hits.fate == ESCAPED ? 1.0 : 0.0;
     vec3 direction = hits.fate == ESCAPED ? hits.direction : vec3(1.0, 0.0, 0.0);
-    vec3 right = dFdx(hits.direction), up = dFdy(hits.direction);
+    vec3 right = block_side * dFdx(hits.direction), up = block_side * dFdy(hits.direction); // of a whole pixel
     bool whole_right = dFdx(escaped) == 0.0, whole_up = dFdy(escaped) == 0.0;
 
     vec3 torn = TORN_FOOTPRINT * cross(direction, abs(direction.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0));
     right = whole_right ? right : (whole_up ? cross(up, direction) : torn);
     up = whole_up ? up : cross(direction, right);
 
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
+    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
     vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy);
     radiance = vec4(clamp(light, 0.0, BRIGHTEST), 1.0);
 }

@@ -37,7 +37,7 @@ void main() {
 #if RAYS_LISTED
     vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
 #else
-    vec3 local = pixel_direction(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5);
+    vec3 local = pixel_direction(picture_place(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5));
 #endif
     store_hits(trace_ray(ray_start(local)));
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -14,6 +14,7 @@ from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
 from . import diagnostics, supersampling, views
+from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .post import PostPass
@@ -59,6 +60,7 @@ class Renderer:
     Attributes:
         programs: the compiled programs; ``programs.reload()`` takes up changed shader files.
         hit_map: the last trace.
+        edges: the pixels of the last picture that have several rays.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
     """
 
@@ -70,6 +72,7 @@ class Renderer:
         self._sample_map = HitMap(ctx, self.programs)
         self._mean = supersampling.Mean(ctx)
         self._shade = ShadePass(ctx, self.programs)
+        self.edges = EdgeRays(ctx, self.programs)
         self._views = diagnostics.ViewPass(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
         self._radiance: Target | None = None
@@ -107,7 +110,7 @@ class Renderer:
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
-        radiance = self._shaded(inputs)
+        radiance = self._shaded_with_edges(inputs)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -131,14 +134,17 @@ class Renderer:
             raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; its colours have no mean")
         self._mean.begin((scene, time, size))
         first = self._mean.count == 0
-        inputs = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size, supersampling.place(self._mean.count))
-        hit_map = self.hit_map if first else self._sample_map
+        middle = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size)
+        inputs = replace(middle, offset=supersampling.place(self._mean.count))
         if first:
             self._trace(inputs)
-            self._views.fit(scene, hit_map)
+            self._views.fit(scene, self.hit_map)
         else:
-            hit_map.trace(inputs)
-        mean = self._mean.add(_radiance_of(self._shaded(inputs, hit_map)))
+            self._sample_map.trace(inputs)
+        radiance = self._shaded(inputs, self.hit_map if first else self._sample_map)
+        if not diagnostics.is_on(scene):
+            self.edges.draw(middle, self.hit_map, radiance)
+        mean = self._mean.add(_radiance_of(radiance))
         self._post.draw(inputs, mean, target or self._own_picture(size).frame, (0, 0, *size))
         if self._mean.count == scene.rays.at_rest:
             self._sample_map.release()
@@ -165,7 +171,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        plan = diagnostics.prepared(make_plan(scene))
+        plan = diagnostics.prepared(make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples))))
         width, height = size
         self._fit_view(plan, size)
         total = np.zeros((height, width, 4), np.float32)
@@ -176,7 +182,7 @@ class Renderer:
             tile = min(TILE, width - x), min(TILE, height - y)
             inputs = FrameInputs(plan, time, tile, size, (x + shift[0], y + shift[1]))
             self._trace(inputs)
-            total[y : y + tile[1], x : x + tile[0]] += _radiance_of(self._shaded(inputs)) / samples**2
+            total[y : y + tile[1], x : x + tile[0]] += _radiance_of(self._shaded_with_edges(inputs)) / samples**2
             if progress is not None:
                 progress((done + 1) / len(passes))
         texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
@@ -232,6 +238,7 @@ class Renderer:
         self.reference_map.release()
         self._sample_map.release()
         self._mean.release()
+        self.edges.release()
         self._views.release()
         self._shade.release()
         self._post.release()
@@ -248,15 +255,22 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _shaded(self, inputs: FrameInputs, hit_map: HitMap | None = None) -> Target:
-        """The radiance that the hits of `hit_map`, the own one if there is none, have in the scene."""
+    def _shaded(self, inputs: FrameInputs, hit_map: HitMap) -> Target:
+        """The radiance that the hits of `hit_map` have in the scene."""
         if self._radiance is None or self._radiance.size != inputs.size:
             self._radiance = self._fresh(self._radiance, inputs.size, 4, "f2")
         if diagnostics.is_on(inputs.plan.scene):
-            self._views.draw(inputs, hit_map or self.hit_map, self.reference_map, self._radiance.frame)
+            self._views.draw(inputs, hit_map, self.reference_map, self._radiance.frame)
         else:
-            self._shade.draw(inputs, hit_map or self.hit_map, self._radiance.frame)
+            self._shade.draw(inputs, hit_map, self._radiance.frame)
         return self._radiance
+
+    def _shaded_with_edges(self, inputs: FrameInputs) -> Target:
+        """The same of the own hit map, with several rays in the pixels at edges."""
+        radiance = self._shaded(inputs, self.hit_map)
+        if not diagnostics.is_on(inputs.plan.scene):
+            self.edges.draw(inputs, self.hit_map, radiance)
+        return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:
         """Has tiles of a picture of `size` drawn by one scale, that of the whole, found on a picture no larger than a tile."""
@@ -280,6 +294,11 @@ class Renderer:
         if measure:
             self.ctx.finish()
         stamps.append(clock.perf_counter())
+
+
+def _with_fewer_edge_rays(scene: Scene, most: int) -> Scene:
+    """`scene` with at most so many rays along each axis of a pixel at edges: for pictures that are summed up."""
+    return scene if scene.rays.edges <= most else scene.with_values({"rays.edges": most})
 
 
 def _drawn(target: Target | None) -> Target:

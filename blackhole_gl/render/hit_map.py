@@ -6,7 +6,7 @@ turns it to the world.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import count
 
 import moderngl
@@ -27,6 +27,33 @@ _SLICES = 12
 
 
 _GENERATIONS = count(1)
+
+
+@dataclass(frozen=True, eq=False)
+class RayBlocks:
+    """Blocks of rays, each of one pixel, that a map may hold instead of a ray for each pixel of a picture.
+
+    Attributes:
+        side: rays along each axis of a pixel.
+        pixels: RG32F, each block's pixel, from the bottom left.
+    """
+
+    side: int
+    pixels: moderngl.Texture
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """(width, height) of the map."""
+        return self.side * self.pixels.width, self.side * self.pixels.height
+
+    @property
+    def samplers(self) -> dict[str, moderngl.Texture]:
+        """What shaders/common/observer.glsl reads, by name."""
+        return {"block_pixels": self.pixels}
+
+
+# What shaders that draw rays of blocks are composed with.
+_IN_BLOCKS = {"RAYS_IN_BLOCKS": 1}
 
 
 class HitMap:
@@ -56,6 +83,7 @@ class HitMap:
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
+        self._blocks: RayBlocks | None = None  # of which the map's rays are, if they are not one for each pixel
 
     def trace(self, inputs: FrameInputs, *, progressive: bool = False) -> bool:
         """Traces `inputs` unless the map holds just that already.
@@ -69,6 +97,7 @@ class HitMap:
         """
         plan = inputs.plan
         rays = self._programs.get("trace.frag", inputs)
+        self._blocks = None
         key = _key_of(inputs, rays)
         refined = progressive and plan.refine_px > 0.0
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
@@ -88,6 +117,19 @@ class HitMap:
         self.traces += 1
         self.generation = next(_GENERATIONS)
         return True
+
+    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks) -> None:
+        """Traces the rays of `blocks`, all of the picture of `inputs`."""
+        inputs = inputs.drawn_as(blocks.size)
+        self._last, self._blocks = inputs, blocks
+        rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS)
+        rays.sample(blocks.samplers)
+        rays.set(block_side=float(blocks.side))
+        self._bind_tables(rays)
+        target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
+        self._trace_rows(rays, target, 0, inputs.size[1])
+        self._key, self.generation = None, next(_GENERATIONS)
+        self.traces += 1
 
     def _bind_tables(self, rays: Draw) -> None:
         """Gives the trace pass what it looks up: tables of the ray model, and the things and media that rays may meet."""
@@ -122,11 +164,18 @@ class HitMap:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan
         found = dict(zip(hit_texels.names(plan.orders, plan.meetings), self.textures))
+        if self._blocks is not None:
+            found |= self._blocks.samplers
         return found if self.is_sharp else {**found, **self._grid.samplers()}
+
+    @property
+    def block_side(self) -> int:
+        """Rays along each axis of a pixel that the map holds."""
+        return self._blocks.side if self._blocks else 1
 
     def switches(self) -> dict[str, int]:
         """The switches that shaders which read the map are to be composed with."""
-        return {"HIT_MAP_REFINED": int(not self.is_sharp)}
+        return {"HIT_MAP_REFINED": int(not self.is_sharp), **(_IN_BLOCKS if self._blocks else {})}
 
     def switches_where_flat(self) -> dict[str, int] | None:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""

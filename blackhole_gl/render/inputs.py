@@ -38,6 +38,12 @@ class FrameInputs:
         """The same frame by another plan."""
         return replace(self, plan=plan)
 
+    def drawn_as(self, size: tuple[int, int]) -> FrameInputs:
+        """The same picture's rays, drawn into `size` pixels: the uniform blocks are the same ones."""
+        made = replace(self, size=size)
+        made.__dict__["blocks"] = self.blocks
+        return made
+
     @cached_property
     def blocks(self) -> dict[str, bytes]:
         """The packed uniform blocks by name.
@@ -59,7 +65,7 @@ class UniformBuffers:
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
         self._buffers: dict[str, moderngl.Buffer] = {}
-        self._written: FrameInputs | None = None
+        self._written: dict[str, bytes] | None = None
 
     def bind(self, inputs: FrameInputs) -> None:
         """Binds the blocks of `inputs`, written anew unless they are those written last. Binding is not remembered: others may share the context."""
@@ -67,10 +73,10 @@ class UniformBuffers:
             buffer = self._buffers.get(block.name)
             if buffer is None:
                 buffer = self._buffers[block.name] = self._ctx.buffer(inputs.blocks[block.name], dynamic=True)
-            elif inputs is not self._written:
+            elif inputs.blocks is not self._written:
                 buffer.write(inputs.blocks[block.name])
             buffer.bind_to_uniform_block(block.binding)
-        self._written = inputs
+        self._written = inputs.blocks
 
     def release(self) -> None:
         """Gives the GL objects back."""

@@ -124,6 +124,8 @@ class ShadePass:
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
         things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
         prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)})
+        if "block_side" in prepared.program:
+            prepared.set(block_side=float(hit_map.block_side))
         return prepared
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:

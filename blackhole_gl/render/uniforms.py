@@ -167,7 +167,7 @@ def scene_values(plan: Plan) -> dict[str, object]:
 
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
-    found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0}
+    found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN}
     found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}

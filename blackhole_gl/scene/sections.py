@@ -94,6 +94,11 @@ class Rays:
         "While the camera moves, trace a coarse grid of exact rays and interpolate between them where the tolerance allows; at rest every "
         "pixel gets its own.",
     )
+    edges: int = number(
+        4, 1, 8, "",
+        "Rays along each axis of a pixel within which what is seen changes: at the shadow's edge and on the rings, where one would leave a row of dots; odd "
+        "numbers count as the next even one. 1: its own ray alone.",
+    )
     lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
 
 

@@ -10,7 +10,25 @@ struct RayStart {
     float energy;  // +1; −1 for light that only the ergosphere holds
 };
 
-// Where the pixel at `place` (gl_FragCoord.xy) looks, in the observer's frame (r, θ, φ); (−1, −β, α) in M for a camera at infinity.
+// Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. RAYS_IN_BLOCKS: what is drawn are not pixels side by side but blocks of
+// rays, each of one pixel (blackhole_gl/render/edges.py).
+#if RAYS_IN_BLOCKS
+uniform sampler2D block_pixels;  // each block's pixel
+uniform float block_side;        // rays along each axis of a pixel
+
+vec2 picture_place(vec2 fragment) {
+    vec2 pixel = texelFetch(block_pixels, ivec2(fragment / block_side), 0).xy;
+    return pixel + mod(fragment, block_side) / block_side;
+}
+#else
+const float block_side = 1.0;
+
+vec2 picture_place(vec2 fragment) {
+    return fragment;
+}
+#endif
+
+// Where the pixel at `place` looks, in the observer's frame (r, θ, φ); (−1, −β, α) in M for a camera at infinity.
 vec3 pixel_direction(vec2 place) {
     vec2 screen = (2.0 * (place + picture_offset) - picture_size) * picture_scale;
     vec3 local = vec3(-1.0, -screen.y, screen.x);

@@ -21,6 +21,7 @@ SHIPPED = [info for info in presets.available() if info.path.is_relative_to(pres
 
 # What draws a picture, in the order of shaders/README.md.
 TRACED = ("trace.frag", "refine_nodes.frag", "refine_cells.frag", "refine_classes.frag", "probe.frag")
+EDGES = ("edge_marks.frag", "edge_pixels.frag", "edge_resolve.frag")
 POST = ("post/bloom_down.frag", "post/bloom_up.frag", "post/tone_table.frag", "post/tone_map.frag")
 
 
@@ -74,9 +75,11 @@ def collect() -> Mapping[tuple[str, str], str]:
 def _of_scenes() -> Iterator[Wanted]:
     for name, scene in _scenes():
         made = plan(scene)
-        yield from ((path, name, made, {}) for path in TRACED)
+        yield from ((path, name, made, {}) for path in (*TRACED, *EDGES))
         yield from ((path, name, made, TONE_TABLE) for path in POST)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined}) for path, refined in _readers(made))
+        in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined)]
+        yield from ((path, f"{name}, in blocks", made, {"RAYS_IN_BLOCKS": 1}) for path in in_blocks)
 
 
 def _readers(made: Plan) -> Iterator[tuple[str, int]]:

@@ -1,0 +1,177 @@
+"""Several rays in the pixels within which what is seen changes: at the shadow's edge and on the rings, which are thinner than a pixel.
+
+They are traced once for a hit map and kept with it; from then on they cost shading alone, and only in those few pixels.
+"""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+
+from .edge_pixels import EdgePixels, drawn_nearer
+from .hit_map import HitMap, RayBlocks
+from .inputs import FrameInputs
+from .programs import Programs
+from .shading import Box, ShadePass
+from .target import Target
+
+# Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
+_BLOCKS_IN_A_ROW, _ROWS = 128, 4
+
+# Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame.
+_MOVING_SIDE = 2
+
+# Depth of the pixels at edges and of all others, and between the two.
+_EDGE, _OTHER, _BETWEEN = 0.25, 0.75, 0.5
+
+
+class EdgeRays:
+    """The pixels at edges, their rays and what these show.
+
+    Attributes:
+        pixels: column and row of each pixel with several rays, from the bottom left, int (N, 2).
+    """
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self._find = EdgePixels(ctx, programs)
+        self._map = HitMap(ctx, programs)
+        self._shade = ShadePass(ctx, programs)
+        self._places: _Places | None = None
+        self._texture: moderngl.Texture | None = None
+        self._blocks: RayBlocks | None = None
+        self._radiance: Target | None = None
+        self._key: tuple | None = None
+        self.pixels = np.empty((0, 2), int)
+
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target) -> None:
+        """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`."""
+        side = _side(inputs.plan.scene.rays.edges, hit_map.is_sharp)
+        key = (hit_map.generation, side, inputs.size, inputs.plan.orders, inputs.plan.disk_inner, inputs.plan.disk_outer)
+        if key != self._key:
+            self._trace(inputs, hit_map, side)
+            self._key = key
+        if self._blocks is None or self._radiance is None or self._places is None:
+            return
+        self._shade.draw(inputs.drawn_as(self._blocks.size), self._map, self._radiance.frame)
+        resolve = self._programs.get("edge_resolve.frag", inputs)
+        resolve.set(pairs=self._blocks.side // 2)
+        resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})
+        self._places.frame(target).use()
+        self._ctx.scissor = self._places.box
+        with drawn_nearer(self._ctx, resolve, _BETWEEN):
+            resolve.draw()
+        self._ctx.scissor = None
+
+    @property
+    def traces(self) -> int:
+        """How many times rays have been traced."""
+        return self._map.traces
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        self._find.release()
+        self._map.release()
+        self._shade.release()
+        for item in (self._texture, self._radiance, self._places):
+            if item is not None:
+                item.release()
+        self._texture, self._radiance, self._places, self._blocks, self._key = None, None, None, None, None
+
+    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int) -> None:
+        """Finds the pixels at edges, and traces `side`² rays of each; none where that is one."""
+        self.pixels, self._blocks = np.empty((0, 2), int), None
+        if side == 1:
+            return
+        self.pixels = self._find.find(inputs, hit_map)
+        if not len(self.pixels):
+            return
+        if self._places is None or self._places.size != inputs.size:
+            if self._places is not None:
+                self._places.release()
+            self._places = _Places(self._ctx, inputs.size)
+        place = np.arange(len(self.pixels))
+        self._places.write(self.pixels, np.stack([place % _BLOCKS_IN_A_ROW, place // _BLOCKS_IN_A_ROW], axis=-1))
+        self._blocks = self._blocks_of(self.pixels, side)
+        self._map.trace_blocks(inputs, self._blocks)
+
+    def _blocks_of(self, pixels: np.ndarray, side: int) -> RayBlocks:
+        """The blocks of `pixels`, (N, 2), and a target for what they show. The last row is filled up with blocks that nobody asks for."""
+        rows = -(-len(pixels) // (_BLOCKS_IN_A_ROW * _ROWS)) * _ROWS
+        filled = np.zeros((rows * _BLOCKS_IN_A_ROW, 2), np.float32)
+        filled[: len(pixels)] = pixels
+        size = _BLOCKS_IN_A_ROW, rows
+        if self._texture is None or self._texture.size != size:
+            if self._texture is not None:
+                self._texture.release()
+            self._texture = self._ctx.texture(size, 2, dtype="f4")
+            self._texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        self._texture.write(filled.tobytes())
+        made = RayBlocks(side, self._texture)
+        if self._radiance is None or self._radiance.size != made.size:
+            if self._radiance is not None:
+                self._radiance.release()
+            radiance = self._ctx.texture(made.size, 4, dtype="f2")
+            radiance.repeat_x = radiance.repeat_y = False
+            self._radiance = Target.of(self._ctx, [radiance])
+        return made
+
+
+def _side(asked: int, is_sharp: bool) -> int:
+    """Rays along each axis: even where there are several, as changes are taken between two and two of them."""
+    if asked == 1:
+        return 1
+    return asked + asked % 2 if is_sharp else _MOVING_SIDE
+
+
+class _Places:
+    """Where in a picture of `size` the pixels at edges are, and their blocks of rays.
+
+    Attributes:
+        block_of_pixel: RG16F, column and row of the pixel's block; without meaning at all other pixels.
+        box: the smallest part of the picture that holds them all.
+    """
+
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int]):
+        self._ctx = ctx
+        self.size = size
+        self.block_of_pixel = ctx.texture(size, 2, dtype="f2")
+        self.box: Box = (0, 0, *size)
+        self._depth = ctx.depth_texture(size)
+        self._host = np.full(size[::-1], _OTHER, np.float32)
+        self._blocks = np.zeros((*size[::-1], 2), np.float16)
+        self._frame: moderngl.Framebuffer | None = None
+
+    def write(self, pixels: np.ndarray, blocks: np.ndarray) -> None:
+        """The `pixels` have these `blocks`, each (N, 2), and no others have any."""
+        columns, rows = pixels.T
+        (x, y), (right, top) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
+        box = x, y, right + 1 - x, top + 1 - y
+        _part(self._host, self.box)[:] = _OTHER
+        self._host[rows, columns] = _EDGE
+        self._blocks[rows, columns] = blocks
+        for part in (self.box, box):
+            self._depth.write(_part(self._host, part).tobytes(), part)
+        self.block_of_pixel.write(_part(self._blocks, box).tobytes(), box)
+        self.box = box
+
+    def frame(self, target: Target) -> moderngl.Framebuffer:
+        """Draws into `target` with the pixels' depth, which it leaves as it is."""
+        if self._frame is None or self._frame.color_attachments[0] is not target.texture:
+            if self._frame is not None:
+                self._frame.release()
+            self._frame = self._ctx.framebuffer([target.texture], self._depth)
+            self._frame.depth_mask = False
+        return self._frame
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for item in (self._frame, self._depth, self.block_of_pixel):
+            if item is not None:
+                item.release()
+        self._frame = None
+
+
+def _part(whole: np.ndarray, box: Box) -> np.ndarray:
+    x, y, width, height = box
+    return whole[y : y + height, x : x + width]

@@ -1,0 +1,174 @@
+"""Several rays in the pixels at edges: the rings are lines and not rows of dots while time runs, and as bright as they are.
+
+The reference is the same picture six times as large, its radiance averaged: 36 rays a pixel, each with its own footprint. The disk is smooth and the sky dark,
+as the detail of either depends on the size that a picture is drawn in.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl.plan import plan
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.scene import Scene, presets
+
+FINER = 6
+SIZE = (640, 360)
+
+SMOOTH = {"disk.turbulence": False, "sky.enabled": False}
+SCENES = {
+    "kerr, a* = 0.9": {"hole.spin": 0.9},
+    "kerr, a* = 0.998": {"hole.spin": 0.998},
+    "schwarzschild": {"hole.spin": 0.0, "rays.model": "schwarzschild"},
+}
+
+
+def displayed(radiance: np.ndarray) -> np.ndarray:
+    """Grey levels 0…255 of radiance (…, 3): what stands out on a screen, without the tone curves that presets choose."""
+    return 255.0 * np.mean(radiance / (1.0 + radiance), axis=-1)
+
+
+def reference(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> np.ndarray:
+    """`displayed` of the picture with `FINER`² rays a pixel, drawn in parts of its own size, row 0 on top."""
+    width, height = size
+    made, finer = plan(scene.with_values({"rays.edges": 1})), (FINER * width, FINER * height)
+    rows = []
+    for y in range(0, finer[1], height):
+        parts = []
+        for x in range(0, finer[0], width):
+            inputs = FrameInputs(made, 1.0, size, finer, (x, y))
+            renderer._trace(inputs)
+            renderer._shaded(inputs, renderer.hit_map)
+            parts.append(renderer.radiance()[::-1])
+        rows.append(np.concatenate(parts, axis=1))
+    whole = np.concatenate(rows)[::-1]
+    return displayed(whole.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3)))
+
+
+def edges_of(renderer: Renderer, size: tuple[int, int]) -> np.ndarray:
+    """Which pixels have several rays, bool (height, width), row 0 on top."""
+    found = np.zeros(size[::-1], bool)
+    columns, rows = renderer.edges.pixels.T
+    found[rows, columns] = True
+    return found[::-1]
+
+
+def grown(mask: np.ndarray) -> np.ndarray:
+    """With all pixels that touch one of them."""
+    padded = np.pad(mask, 1)
+    height, width = mask.shape
+    return np.any([padded[y : y + height, x : x + width] for y in range(3) for x in range(3)], axis=0)
+
+
+def scan(picture: np.ndarray, ring: np.ndarray, shadow: np.ndarray) -> float:
+    """How much the light of the `ring` changes from place to place along it: the deviation from its mean over nine neighbours, of 240 round it."""
+    middle = np.argwhere(shadow).mean(axis=0)
+    y, x = np.nonzero(ring)
+    place = (np.arctan2(y - middle[0], x - middle[1]) / (2.0 * np.pi) % 1.0 * 240).astype(int)
+    light = np.bincount(place, picture[ring], 240) / np.maximum(np.bincount(place, minlength=240), 1)
+    return float(np.std(light - np.convolve(np.concatenate([light[-4:], light, light[:4]]), np.ones(9) / 9, "valid")))
+
+
+def rings_of(renderer: Renderer) -> np.ndarray:
+    """The pixels of the first and the second ring, and those beside them: where such a crossing lies on the disk and no nearer one hides it."""
+    hits, made = renderer.hits(), renderer.hit_map._traced.plan
+    r = np.linalg.norm(hits.crossing, axis=-1)
+    on_disk = (r >= made.disk_inner) & (r <= made.disk_outer)
+    return grown(((on_disk[..., 1] & ~on_disk[..., 0]) | on_disk[..., 2])[::-1])
+
+
+def check_rings(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> dict[str, float]:
+    """Holds a picture while time runs to the reference. The bounds are those that the rings were to be drawn within; returns what was found."""
+    fine = reference(renderer, scene, size)
+    renderer.render(scene.with_values({"rays.edges": 1}), 1.0, size)
+    one, captured, rings = displayed(renderer.radiance()), renderer.fates_and_steps()[0][::-1] == 2, rings_of(renderer)
+    renderer.render(scene, 0.0, size)
+    traces = renderer.edges.traces
+    renderer.render(scene, 1.0, size)
+    assert renderer.edges.traces == traces, "rays are kept while time runs"
+    several, edges = displayed(renderer.radiance()), edges_of(renderer, size)
+    band = grown(grown(captured) & grown(~captured))
+    brightest = np.max([np.roll(fine, (y, x), (0, 1)) for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
+    found = {
+        "pixels": edges.mean(),
+        "error": np.abs(several - fine)[rings].mean() / np.abs(one - fine)[rings].mean(),
+        "error of the band": np.abs(several - fine)[band].mean() / np.abs(one - fine)[band].mean(),
+        "scan": scan(several, band, captured) / scan(fine, band, captured),
+        "light": several[band].sum() / fine[band].sum(),
+        "brighter than all beside": (several - brightest)[band].max(),
+    }
+    assert found["pixels"] < 0.02, found
+    assert found["error"] < 0.2, found
+    assert 0.9 < found["scan"] < 1.1 and 0.9 < found["light"] < 1.1, found
+    assert found["brighter than all beside"] < 16.0, found  # grey levels: a sixteenth of the scale stands out from no ring
+    return found
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_rings_are_lines_while_time_runs(renderer: Renderer, name: str) -> None:
+    check_rings(renderer, presets.load(["kerr"], {**SMOOTH, **SCENES[name]}), SIZE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SCENES)
+def test_rings_are_lines_in_a_window(renderer: Renderer, name: str) -> None:
+    print(name, check_rings(renderer, presets.load(["kerr"], {**SMOOTH, **SCENES[name]}), (1280, 720)))
+
+
+def test_rings_are_finer_under_a_moving_camera_too(renderer: Renderer) -> None:
+    """Four rays instead of sixteen; where the camera moves no still reference would be seen, so only half of the error has to go."""
+    scene = presets.load(["kerr"], {**SMOOTH, **SCENES["schwarzschild"]})
+    fine = reference(renderer, scene, SIZE)
+    pictures = []
+    for edges in (1, 4):
+        renderer.hit_map.forget()
+        report = renderer.render(scene.with_values({"rays.edges": edges}), 1.0, SIZE, progressive=True)
+        assert not report.sharp
+        pictures.append(displayed(renderer.radiance()))
+    edges = edges_of(renderer, SIZE)
+    assert edges.any()
+    one, several = (np.abs(picture - fine)[edges].mean() for picture in pictures)
+    assert several < 0.5 * one
+
+
+def test_one_ray_a_pixel_is_left_alone(renderer: Renderer) -> None:
+    renderer.render(presets.load(["kerr"], {"rays.edges": 1}), 1.0, SIZE)
+    assert len(renderer.edges.pixels) == 0
+
+
+def test_odd_numbers_count_as_the_next_even_one(renderer: Renderer) -> None:
+    pictures = []
+    for edges in (3, 4):
+        renderer.render(presets.load(["kerr"], {"rays.edges": edges}), 1.0, SIZE)
+        pictures.append(renderer.read_rgb8())
+    np.testing.assert_array_equal(*pictures)
+
+
+def test_silhouettes_of_things_are_edges(renderer: Renderer) -> None:
+    """A ring in a tilted plane hides the sky, and has no cover of its own that is smooth."""
+    scene = presets.load(["kerr"], {**SMOOTH, "disk.enabled": False, "things.ring.kind": "annulus"})
+    fine = reference(renderer, scene, SIZE)
+    pictures = []
+    for edges in (1, 4):
+        renderer.render(scene.with_values({"rays.edges": edges}), 1.0, SIZE)
+        pictures.append(displayed(renderer.radiance()))
+    edges = edges_of(renderer, SIZE)
+    one, several = (np.abs(picture - fine)[edges].mean() for picture in pictures)
+    assert edges.any() and several < 0.2 * one
+
+
+def test_a_picture_at_rest_keeps_its_rings(renderer: Renderer) -> None:
+    """The samples that follow the first must not bring the dots back, and sharpen everything else."""
+    scene = presets.load(["kerr"], {**SMOOTH, **SCENES["schwarzschild"], "post.bloom": False, "post.dither": False})
+    renderer.render_still(scene.with_values({"rays.edges": 8}), 1.0, SIZE)
+    still = renderer.read_rgb8().astype(int)
+    renderer.render(scene, 1.0, SIZE)
+    edges = edges_of(renderer, SIZE)
+    errors = []
+    for asked in (1, 4):
+        for _ in range(5):
+            renderer.render_finer(scene.with_values({"rays.edges": asked}), 1.0, SIZE)
+        errors.append(np.abs(renderer.read_rgb8() - still)[edges].mean())
+    assert errors[1] < 0.5 * errors[0]
