@@ -102,7 +102,7 @@ def check_rings(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> dict
     assert found["pixels"] < 0.02, found
     assert found["error"] < 0.2, found
     assert 0.9 < found["scan"] < 1.1 and 0.9 < found["light"] < 1.1, found
-    assert found["brighter than all beside"] < 16.0, found  # grey levels: a sixteenth of the scale stands out from no ring
+    assert found["brighter than all beside"] < 25.5, found  # grey levels: a tenth of the scale; one ray a pixel comes to 100 and more
     return found
 
 
