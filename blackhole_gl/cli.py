@@ -100,23 +100,28 @@ def view(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
-    size: Annotated[str, typer.Option(help="Width × height of the window.")] = "1280x800",
+    size: Annotated[str | None, typer.Option(help="Width × height of the window.", show_default="that of the last one, or 1280x800")] = None,
+    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c to begin at. When not given: a saved scene's, or 0.", show_default=False)] = None,
 ) -> None:
     """Open the viewer. Without a display: write a picture and say where."""
     from .self_check import display_present
 
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_)
+    begins = _time(time, preset)
+    if not (preset or set_) and (last := _last_scene()):
+        scene, begins = last[0], last[1] if time is None else begins
+    else:
+        scene, preset = _scene(preset, set_), preset or list(preset_files.DEFAULT_PRESETS)
     if not display_present():
         out = Path("blackhole.png").resolve()
         print("There is no display (DISPLAY is not set; under Wayland, XWayland sets it), so no window can be opened.")
         print("Rendering the scene to a picture instead …", flush=True)
-        _render(scene, (1280, 720), 0.0, out, scene.rays.in_stills, "auto")
+        _render(scene, (1280, 720), begins, out, scene.rays.in_stills, "auto")
         print(f"Written: {out}")
         return
     from .app import window
 
-    window.run(scene, preset_names=preset or preset_files.DEFAULT_PRESETS, size=_size(size))
+    window.run(scene, preset_names=preset, time=begins, size=_size(size) if size else None)
 
 
 @app.command()
@@ -270,6 +275,20 @@ def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
     for sentence in preset_files.skipped(names or ()):
         print(f"blackhole-gl: {sentence}", file=sys.stderr)
     return scene
+
+
+def _last_scene() -> tuple[Scene, float] | None:
+    """The scene that the last window showed and its time, where the user has such kept; what stands in the way is told."""
+    from .app import kept
+
+    path = kept.last_scene_file()
+    if not path.is_file():
+        return None
+    try:
+        return _scene([str(path)], None), float(preset_files.read(path).time or 0.0)
+    except SceneError as error:
+        print(f"blackhole-gl: the last scene is left out: {error}", file=sys.stderr)
+        return None
 
 
 def _refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:

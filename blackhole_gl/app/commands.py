@@ -157,6 +157,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "undo": WindowState.undo,
     "redo": WindowState.redo,
     "help": flip("show_help"),
+    "search": flip("show_search"),
     "picture": flip("picture_wanted"),
     "full_screen": flip("full_screen"),
     "view": next_view,

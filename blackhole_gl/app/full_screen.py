@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from imgui_bundle import hello_imgui  # before glfw: on Linux the first GLFW that is loaded is the one used
+
+# isort: split
 import glfw
 
 _NO_MONITOR: Any = None  # glfw's stubs do not know that a window may be on none
@@ -42,6 +45,13 @@ class FullScreen:
     def __init__(self, window: Any):
         self._window = window
         self._before: Rectangle | None = None
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Of the window that is no full screen, in units of a 96 dpi screen."""
+        width, height = (self._before.width, self._before.height) if self._before else glfw.get_window_size(self._window)
+        scale = hello_imgui.dpi_window_size_factor()
+        return round(width / scale), round(height / scale)
 
     def set(self, on: bool) -> None:
         """Fills the monitor that the window is on, or puts the window back. Without a monitor nothing happens."""

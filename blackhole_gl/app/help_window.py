@@ -8,7 +8,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from ..output.files import write_whole
 from . import theme
-from .keys import ACTIONS, Bindings, Chord, template
+from .keys import ACTIONS, Bindings, shown, template
 from .state import WindowState
 
 _MOUSE = (
@@ -24,7 +24,6 @@ _MOUSE = (
     ("Click an orange dot", "Back to physics"),
     ("ESC", "Leave a field, a list, this window, full screen"),
 )
-_SPELT = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -", "PAGE_UP": "PAGE UP", "PAGE_DOWN": "PAGE DOWN"}
 
 
 def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
@@ -43,16 +42,12 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
     visible, stays = imgui.begin("Help", True, flags.value)
     state.show_help = bool(stays)
     if visible:
-        _table("keys", [(_keys_text(bindings[action.name]), action.help) for action in ACTIONS])
+        _table("keys", [(shown(bindings[action.name]) or "no key", action.help) for action in ACTIONS])
         imgui.separator()
         _table("mouse", _MOUSE)
         imgui.separator()
         _file(state, key_file)
     imgui.end()
-
-
-def _keys_text(chords: tuple[Chord, ...]) -> str:
-    return "   ".join("+".join((*chord.modifiers, (chord.character or _SPELT.get(chord.key, chord.key)).upper())) for chord in chords) or "no key"
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:

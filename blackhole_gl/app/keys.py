@@ -73,10 +73,11 @@ ACTIONS: tuple[Action, ...] = (
     Action("undo", ("CTRL+Z",), "Undo"),
     Action("redo", ("CTRL+SHIFT+Z", "CTRL+Y"), "Redo"),
     Action("help", ("F1", "H"), "This window"),
+    Action("search", ("CTRL+P",), "Search settings, presets, views and commands"),
     Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),
     Action("full_screen", ("F11",), "Full screen"),
     Action("view", ("V",), "Next view: picture, steps, orders, g-factor, temperature, difference, conservation, unresolved"),
-    Action("panel", ("TAB",), "Show or hide the panel"),
+    Action("panel", ("TAB",), "Show or hide panel and bar"),
     Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),
     Action("paths", ("G",), "Show or hide the path view: a click on the picture shows that ray in space, step by step"),
@@ -93,9 +94,15 @@ _SIGNS = {
 }  # fmt: skip
 _NAMED = ("SPACE", "TAB", "ENTER", "BACKSPACE", "INSERT", "DELETE", "HOME", "END", "PAGE_UP", "PAGE_DOWN", "LEFT", "RIGHT", "UP", "DOWN")
 _KEYPAD = ("KEYPAD_ADD", "KEYPAD_SUBTRACT", "KEYPAD_MULTIPLY", "KEYPAD_DIVIDE", "KEYPAD_ENTER", *(f"KEYPAD_{n}" for n in range(10)))
+_SPELT = {"KEYPAD_ADD": "keypad +", "KEYPAD_SUBTRACT": "keypad -", "PAGE_UP": "PAGE UP", "PAGE_DOWN": "PAGE DOWN"}
 KEY_NAMES = (*"ABCDEFGHIJKLMNOPQRSTUVWXYZ", *"0123456789", *(f"F{n}" for n in range(1, 13)), *_NAMED, *_SIGNS, *_KEYPAD)
 
 Bindings = Mapping[str, tuple[Chord, ...]]
+
+
+def shown(chords: tuple[Chord, ...]) -> str:
+    """`chords` as people read them; nothing for none."""
+    return "   ".join("+".join((*chord.modifiers, (chord.character or _SPELT.get(chord.key, chord.key)).upper())) for chord in chords)
 
 
 def parse_chord(text: str) -> Chord:

@@ -11,7 +11,7 @@ from imgui_bundle import ImVec4, hello_imgui, imgui
 from .. import plan
 from ..scene import Scene, catalogue, fields, presets
 from ..scene.schema import Field
-from . import commands, scene_files, theme, widgets
+from . import commands, scene_files, sought, theme, widgets
 from .camera_control import range_in
 from .instance_groups import InstanceGroups
 from .pickers import Pickers
@@ -52,6 +52,14 @@ class Panel:
                 if is_open and section == "rays":
                     _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM)
         self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state), forced_open=bool(wanted))
+
+    def shown_fields(self, scene: Scene) -> list[Field]:
+        """The fields that `scene` has rows for, whatever the filter."""
+        return [item for items in _sections().values() for item in items if _is_active(item, scene)]
+
+    def clear_filter(self) -> None:
+        """Has every row shown."""
+        self._filter = ""
 
 
 def _steps(state: WindowState) -> None:
@@ -106,6 +114,7 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
         imgui.set_next_item_open(True)
     else:
         imgui.set_next_item_open(section in _OPEN_AT_START, imgui.Cond_.first_use_ever.value)
+        sought.open_group(state, [item.key for item in items])
     if not imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}"):
         return False
     _table(f"values of {section}", items, state)
@@ -124,6 +133,7 @@ def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
             group = plug_in
             _subheading(group)
         widgets.row(range_in(scene, replace(item, default=state.in_force(item))), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
+        sought.mark(state, item.key)
     imgui.end_table()
 
 

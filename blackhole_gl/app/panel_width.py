@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from imgui_bundle import hello_imgui, imgui
 
-DEFAULT_EM = 25.6  # in which the longest label of the shipped fields fits
-LEAST_EM, MOST_EM = 12.0, 80.0
+from .kept import LEAST_PANEL_EM, MOST_PANEL_EM
+
 _LARGEST_SHARE = 0.6  # of the window's width: some of it is the picture's
 _ROUNDING = 1.5  # pixels that the docking may make of a width
 
@@ -21,7 +21,7 @@ class PanelWidth:
         ems: the width wanted, in units of the font's size.
     """
 
-    def __init__(self, ems: float = DEFAULT_EM):
+    def __init__(self, ems: float):
         self.ems = ems
         self._seen: tuple[float, float] | None = None
 
@@ -36,6 +36,6 @@ class PanelWidth:
         if abs(node.size.x - wanted) < _ROUNDING:
             return
         if is_as_before and imgui.is_mouse_down(imgui.MouseButton_.left):
-            self.ems = min(max(node.size.x / em, LEAST_EM), MOST_EM)
+            self.ems = min(max(node.size.x / em, LEAST_PANEL_EM), MOST_PANEL_EM)
         else:
             imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))

@@ -26,6 +26,14 @@ class Notice:
     until: float | None = None
 
 
+@dataclass(frozen=True)
+class Sought:
+    """A setting that a search has found, by its key; `until` what time its mark stays, in seconds, once the panel shows it."""
+
+    key: str
+    until: float | None = None
+
+
 @dataclass
 class WindowState:
     """What the window shows and does.
@@ -40,6 +48,7 @@ class WindowState:
         clock: the window's own clock in seconds, advanced by each frame.
         holes: spinning or not → the values that S brings back.
         file: what the panel's file field says.
+        sought: the setting that the panel is to show.
         replace_file: the path that the next Save may overwrite.
         shader_error: what is wrong with the shaders on disk, or None.
         render_error: why the last picture could not be made, or None.
@@ -61,6 +70,8 @@ class WindowState:
     show_chart: bool = False
     show_paths: bool = False
     show_sides: bool = False
+    show_search: bool = False
+    sought: Sought | None = None
     full_screen: bool = False
     picture_wanted: bool = False
     file: str = "scene.toml"

@@ -17,7 +17,7 @@ import moderngl
 
 from ..resources import user_config_dir
 from ..scene import Scene, catalogue
-from . import commands, help_window, keys, overlay, preset_switch, runner, scene_files, view_scale
+from . import bar, commands, help_window, kept, keys, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings
 from .area import Area
 from .ending import Ending
 from .full_screen import FullScreen
@@ -30,12 +30,13 @@ from .panel_width import PanelWidth
 from .path_view import PathView
 from .picture import Picture
 from .preparation import Preparation
+from .search_window import SearchWindow
 from .shortcuts import Layout, Shortcuts
 from .side_by_side import SideBySide
+from .start_line import StartLine
 from .state import WindowState
 from .warm_up import WarmUp
 
-SIZE = (1280, 800)
 _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
 _LONGEST_FRAME_S = 0.5
@@ -67,7 +68,8 @@ def run(
     *,
     preset_names: Sequence[str] = (),
     null_platform: bool = False,
-    size: tuple[int, int] = SIZE,
+    time: float | None = None,
+    size: tuple[int, int] | None = None,
     picture_folder: Path | None = None,
     make_renderer: Callable[[moderngl.Context], Any] | None = None,
     driver: Driver | None = None,
@@ -77,7 +79,8 @@ def run(
     Args:
         preset_names: the presets that `scene` was made from, shown in the panel's pickers.
         null_platform: no display at all: GLFW's null platform on EGL.
-        size: width and height in units of a 96 dpi screen.
+        time: scene time at which it begins, in r_s/c; that of the presets when None.
+        size: width and height in units of a 96 dpi screen; those kept from the last window, or the usual ones, when None.
         picture_folder: where F12 puts pictures; the working folder when None.
         make_renderer: makes the renderer from the window's context; ``render.frame.Renderer`` when None.
         driver: drives the window through the ImGui test engine.
@@ -91,7 +94,9 @@ def run(
     """
     open_platform(null_platform)
     window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, may_idle=not null_platform)
-    params = runner.parameters(window, size)
+    if time is not None:
+        window.state.time = time
+    params = runner.parameters(window, size or window.kept.first_size)
     if driver is not None:
         params.use_imgui_test_engine = True
         params.callbacks.register_tests = lambda: driver.register(window)
@@ -99,6 +104,7 @@ def run(
         runner.set_up(params)
         with contextlib.ExitStack() as at_end:  # from last to first, whatever goes wrong in one
             at_end.callback(immapp.manual_render.tear_down)
+            at_end.callback(window.remember)
             at_end.callback(window.warm_up.close)
             at_end.callback(window.live_chart.close)
             while not (params.app_shall_exit or ending.signal or (driver is not None and driver.finished)):
@@ -127,13 +133,20 @@ class Window:
         self, scene: Scene, preset_names: Sequence[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool
     ):
         self.open(scene, preset_names)
+        self.kept, told = kept.load()
+        if told:
+            self.state.complain(told)
+        self.state.show_panel = self.kept.panel_shown or not self.kept.keep_panel
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
         self._picture: Picture | None = None
         self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
         self._mouse = Mouse()
-        self._panel_width = PanelWidth()
+        self._panel_width = PanelWidth(self.kept.first_panel_em)
         self._gesture = Gesture()
+        self._start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
+        self._search = SearchWindow()
+        self._bar = bar.toolbar(self.draw_bar)
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -182,7 +195,10 @@ class Window:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
         params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
-        busy = self.state.is_moving or self.live_chart.busy(self.state) or self.path_view.busy or self.side_by_side.busy(self.state) or self._has_more_to_draw()
+        params.callbacks.edges_toolbars = {hello_imgui.EdgeToolbarType.top: self._bar} if self.state.show_panel else {}
+        imgui.get_style().font_scale_main = self.kept.text_size
+        measuring = self.live_chart.busy(self.state) or self.path_view.busy or self.side_by_side.busy(self.state)
+        busy = self.state.is_moving or self._start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
@@ -209,16 +225,26 @@ class Window:
         colours = self.picture.renderer.view_of(state.scene)
         view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
+        if self.kept.start_line:
+            self._start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
+        self._search.draw(state, lambda: search_window.entries(state, self._panel.shown_fields(state.scene), self.bindings, self.do))
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
         self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
 
+    def draw_bar(self) -> None:
+        """The bar above picture and panel."""
+        bar.draw(self.state, self.bindings, self.do)
+
     def draw_panel(self) -> None:
         """The panel's own window."""
+        if self.state.sought is not None:
+            self._panel.clear_filter()
         self._panel_width.keep()
         report = self.picture.report
         self._panel.draw(self.state, report.reasons if report else (), report.warnings if report else ())
+        self.kept = window_settings.draw(self.state, self.kept)
 
     def draw_picture(self) -> None:
         """Renders what changed and fills the free part of the window."""
@@ -231,6 +257,10 @@ class Window:
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture.draw(window, view.area)
         self.side_by_side.draw(self.state, window, view.area)
+
+    def remember(self) -> None:
+        """Keeps what the user wants kept, before the window closes."""
+        kept.remember(self.kept, self.state, self._full_screen.size, self._panel_width.ems)
 
     # --- parts of a frame ---
 
@@ -256,6 +286,8 @@ class Window:
             return
         if imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value):
             imgui.internal.close_popups_except_modals()
+        elif state.show_search:
+            state.show_search = False
         elif state.show_help:
             state.show_help = False
         else:

@@ -17,6 +17,7 @@ from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that 
 
 # isort: split
 import scenarios  # noqa: E402
+import scenarios_entry  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
 from hands import Hands  # noqa: E402
 
@@ -79,7 +80,7 @@ def real_renderer(folder: Path):
 
 
 def main() -> int:
-    chosen = [getattr(scenarios, name) for name in sys.argv[1:]]
+    chosen = [getattr(scenarios, name, None) or getattr(scenarios_entry, name) for name in sys.argv[1:]]
     with tempfile.TemporaryDirectory() as folder:
         real = any(scenario in scenarios.WITH_THE_REAL_RENDERER for scenario in chosen)
         maker = real_renderer(Path(folder)) if real else FakeRenderer

@@ -20,6 +20,7 @@ import glfw  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
 
 from blackhole_gl.app import window  # noqa: E402
+from blackhole_gl.app.kept import Kept  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 LATE_FRAMES = 12
@@ -44,7 +45,7 @@ class Watch:
     def _count(self, app: window.Window) -> None:
         self.frames += 1
         self.scale, self.labels = hello_imgui.dpi_window_size_factor(), self.labels if self.frames > LAST_FRAME else {}
-        size = [round(self.scale * side) for side in window.SIZE]
+        size = [round(self.scale * side) for side in Kept.window_size]
         if self.late and self.frames <= LATE_FRAMES + 1:
             part = 0.5 if self.frames <= LATE_FRAMES else 1.0
             glfw.set_window_size(glfw_window_hello_imgui(), *(round(part * side) for side in size))

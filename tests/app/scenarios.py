@@ -346,7 +346,7 @@ def copy_and_paste(hands: Hands) -> None:
 
 
 def picture_saved(hands: Hands) -> None:
-    assert presets.from_png(_save_picture(hands)) == hands.scene
+    assert presets.from_png(save_picture(hands)) == hands.scene
 
 
 def renderer_failure_is_shown(hands: Hands) -> None:
@@ -428,7 +428,7 @@ def dear_pictures_are_coarser_while_they_move(hands: Hands) -> None:
 def real_picture(hands: Hands) -> None:
     hands.press(Key.p)
     hands.settle()
-    with_disk = np.asarray(Image.open(_save_picture(hands)))
+    with_disk = np.asarray(Image.open(save_picture(hands)))
     assert hands.state.render_error is None
     assert with_disk.max() > 200, "there is light"
     centre = with_disk[with_disk.shape[0] // 2 - 5 :, with_disk.shape[1] // 2]
@@ -436,11 +436,11 @@ def real_picture(hands: Hands) -> None:
     wait(hands, lambda: hands.window.picture.rays is not None)
     assert hands.window.picture.rays.unresolved == 0 and hands.window.picture.rays.steps > 1
     hands.press(Key.space)
-    without_disk = np.asarray(Image.open(_save_picture(hands)))
+    without_disk = np.asarray(Image.open(save_picture(hands)))
     assert without_disk.mean() < 0.5 * with_disk.mean()
 
 
-def _save_picture(hands: Hands) -> Path:
+def save_picture(hands: Hands) -> Path:
     """The picture as F12 saves it; GL itself cannot be asked here, for scenarios run in a thread of their own."""
     folder = hands.folder.parent / PICTURES
     before = set(folder.glob("*.png"))
