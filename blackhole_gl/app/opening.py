@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from imgui_bundle import hello_imgui  # noqa: F401  before glfw: on Linux the first GLFW that is loaded is the one used
 
 # isort: split
@@ -33,12 +31,7 @@ def open_platform(null_platform: bool) -> str:
     """
     if null_platform:
         glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
-    said: list[str] = []
-
-    def hear(code: int, text: Any) -> None:  # bytes, whatever glfw's stubs say
-        said.append(text.decode("utf-8", "replace"))
-
-    glfw.set_error_callback(hear)
+    said = context.hear_glfw(glfw)
     if not glfw.init():
         reason = said[-1] if said else "GLFW does not start"
         raise WindowError(f"no window can be opened: {reason}. Without a display, use `blackhole-gl render`; under Wayland, install xwayland.")

@@ -374,7 +374,7 @@ def _shader_mistakes(errors: Iterable[Exception]) -> str | None:
 
 
 def _key_name(key: int) -> str | None:
-    return glfw.get_key_name(key, 0)
+    return glfw.get_key_name(key, 0) if glfw.get_key_scancode(key) >= 0 else None  # asked for a key that the keyboard lacks, it complains on the terminal
 
 
 def _is_key_down(key: int) -> bool:

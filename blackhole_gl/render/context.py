@@ -48,6 +48,13 @@ def describe(ctx: moderngl.Context) -> str:
     return f"{ctx.info['GL_RENDERER']}, OpenGL {ctx.info['GL_VERSION']}"
 
 
+def hear_glfw(glfw: Any) -> list[str]:
+    """What the module `glfw` says of its errors from now on, the last at the end; left to itself it warns of them."""
+    said: list[str] = []
+    glfw.set_error_callback(lambda code, text: said.append(text.decode("utf-8", "replace")))
+    return said
+
+
 def _context(**settings: Any) -> moderngl.Context:
     return moderngl.create_context(require=330, **settings)
 
@@ -79,9 +86,10 @@ class _GlfwLoader:
 def _osmesa() -> moderngl.Context:
     import glfw  # only here: rendering through EGL loads no window library
 
+    said = hear_glfw(glfw)
     glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_NULL)
     if not glfw.init():
-        raise ContextError(f"GLFW's null platform does not start: {glfw.get_error()}")
+        raise ContextError(": ".join(["GLFW's null platform does not start", *said[-1:]]))
     for hint, value in (
         (glfw.CONTEXT_CREATION_API, glfw.OSMESA_CONTEXT_API),
         (glfw.VISIBLE, False),
@@ -92,7 +100,7 @@ def _osmesa() -> moderngl.Context:
         glfw.window_hint(hint, value)
     window = glfw.create_window(16, 16, "", None, None)
     if not window:
-        raise ContextError("OSMesa cannot be loaded")
+        raise ContextError(": ".join(["OSMesa cannot be loaded", *said[-1:]]))
     glfw.make_context_current(window)
     return _context(context=_GlfwLoader(glfw, window))
 

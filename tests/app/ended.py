@@ -1,8 +1,8 @@
-"""The command line's `view` without a display, with its other process started, for tests of how it ends.
+"""The command line's `view` with its other process started, for tests of how it ends.
 
-    python tests/app/ended.py
+    python tests/app/ended.py [shown] view
 
-Says the other process's id once a picture is there.
+Without a display, or on that of the environment: `shown`. Says the other process's id once a picture is there.
 """
 
 import functools
@@ -18,7 +18,11 @@ from blackhole_gl import cli  # noqa: E402
 def main() -> None:
     from blackhole_gl.app import picture, window
 
-    window.run = functools.partial(window.run, null_platform=True)
+    if sys.argv[1] == "shown":
+        del sys.argv[1]
+    else:
+        window.run = functools.partial(window.run, null_platform=True)
+        os.environ["DISPLAY"] = ":0"  # the null platform looks at none
     start, update, said = window.Window.start, picture.Picture.update, []
 
     def started(self: window.Window) -> None:
@@ -32,7 +36,6 @@ def main() -> None:
         return rendered
 
     window.Window.start, picture.Picture.update = started, updated
-    os.environ["DISPLAY"] = ":0"  # the null platform looks at none
     cli.main()
 
 

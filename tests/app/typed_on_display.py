@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2])]
@@ -24,9 +25,8 @@ from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.app.keys import Chord, default_bindings  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
-HELD_S = 0.4
-AFTER_S = 0.2
-WITHOUT_QUIT_S = 5.0  # after which the window is closed another way, and this is said
+HELD_S = 0.4  # in which a key would do more than it should
+COMES_S = 20.0  # in which what a key does is to be seen: on a busy machine a frame may take seconds
 _X_NAMES = {
     "SPACE": "space", "TAB": "Tab", "ESC": "Escape", "PAGE_UP": "Prior", "PAGE_DOWN": "Next", "LEFT": "Left", "RIGHT": "Right", "UP": "Up", "DOWN": "Down",
     "PLUS": "plus", "EQUAL": "equal", "MINUS": "minus", "KEYPAD_ADD": "KP_Add", "KEYPAD_SUBTRACT": "KP_Subtract",
@@ -63,11 +63,21 @@ def x_name(chord: Chord) -> str:
 def strike(chord: Chord, record: Recorder) -> tuple[list[str], list[str], bool]:
     record.pressed.clear()
     subprocess.run(["xdotool", "keydown", x_name(chord)], check=True)
+    within(COMES_S, lambda: record.pressed or record.held)
     time.sleep(HELD_S)
     pressed, held = list(record.pressed), list(record.held)
     subprocess.run(["xdotool", "keyup", x_name(chord)], check=True)
-    time.sleep(AFTER_S)
-    return pressed, held, not record.held
+    let_go = record.frames
+    ended = within(COMES_S, lambda: record.frames > let_go + 1 and not record.held)
+    return pressed, held, ended
+
+
+def within(seconds: float, has_come: Callable[[], object]) -> bool:
+    """Waits until `has_come`, at most so long, and says whether it has."""
+    last = time.monotonic() + seconds
+    while not has_come() and time.monotonic() < last:
+        time.sleep(0.02)
+    return bool(has_come())
 
 
 def main() -> None:
@@ -82,7 +92,7 @@ def main() -> None:
             record.leave()
             leaves = x_name(default_bindings()["quit"][0])
             subprocess.run(["xdotool", "keydown", leaves], check=True)
-            found["closed"] = closed.wait(WITHOUT_QUIT_S)
+            found["closed"] = closed.wait(COMES_S)
             subprocess.run(["xdotool", "keyup", leaves], check=True)  # the keyboard is the display's, and the next window's
         finally:
             if not closed.is_set():

@@ -74,6 +74,25 @@ def frames_of_egl(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndar
         return dict(stored)
 
 
+# GLFW refuses a way to make contexts that it does not know, as it does one whose library is not there.
+WITHOUT_OSMESA = """
+import glfw
+from blackhole_gl.render import context
+
+glfw.OSMESA_CONTEXT_API = 0x1234
+try:
+    context.create_headless()
+except context.ContextError as error:
+    print(error)
+"""
+
+
+def test_where_there_is_no_osmesa_the_error_says_so_and_nothing_else_does() -> None:
+    done = run(WITHOUT_OSMESA, "osmesa")
+    assert done.returncode == 0 and "OSMesa cannot be loaded: Invalid context creation API" in done.stdout
+    assert done.stderr == ""
+
+
 def test_an_unknown_backend_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ValueError, match="backend: got 'metal'; allowed is one of auto, egl, osmesa"):
         context.create_headless("metal")
