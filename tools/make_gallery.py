@@ -1,10 +1,16 @@
 """Makes the pictures in docs/pictures/, which the README shows: `make gallery`.
 
-Each is rendered at twice the size it is shown at, averaged, and kept as a JPEG of 200 KB at most.
+Each is rendered at twice the size it is shown at, averaged, and kept as a JPEG of 200 KB at most. Those of the window are as it is on the screen.
+
+    python tools/make_gallery.py [NAME …]    those of these names alone
 """
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +21,8 @@ from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 
+WINDOW = Path(__file__).resolve().parent / "window_pictures.py"
+WINDOW_SHOTS = ("path_view", "side_by_side")
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "pictures"
 SIZE = (960, 540)
 SAMPLES = 2
@@ -52,14 +60,37 @@ def save(picture: Image.Image, path: Path) -> None:
     raise ValueError(f"{path.name}: {path.stat().st_size} bytes at the lowest quality; {LARGEST} are allowed")
 
 
+def render(shots: list[Shot]) -> None:
+    """Makes pictures without a window."""
+    renderer = Renderer(create_headless())
+    for shot in shots:
+        renderer.render_still(presets.load([*shot.presets, "high"], dict(shot.changes)), shot.time, SIZE, SAMPLES)
+        keep(Image.fromarray(renderer.read_rgb8()), shot.name)
+
+
+def photograph(name: str) -> None:
+    """Makes a picture of the window, with nothing of the user's own in it."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "window.png"
+        environment = {**os.environ, "BLACKHOLE_GL_CONFIG_DIR": folder}
+        subprocess.run([sys.executable, str(WINDOW), name, str(path)], check=True, env=environment)
+        keep(Image.open(path), name)
+
+
+def keep(picture: Image.Image, name: str) -> None:
+    """Puts a picture where the README looks for it, and says so."""
+    path = FOLDER / f"{name}.jpg"
+    save(picture, path)
+    print(f"{path.relative_to(FOLDER.parents[1])}  {path.stat().st_size // 1000} KB", flush=True)
+
+
 def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
-    renderer = Renderer(create_headless())
-    for shot in SHOTS:
-        renderer.render_still(presets.load([*shot.presets, "fine"], dict(shot.changes)), shot.time, SIZE, SAMPLES)
-        path = FOLDER / f"{shot.name}.jpg"
-        save(Image.fromarray(renderer.read_rgb8()), path)
-        print(f"{path.relative_to(FOLDER.parents[1])}  {path.stat().st_size // 1000} KB", flush=True)
+    wanted = set(sys.argv[1:]) or {*(shot.name for shot in SHOTS), *WINDOW_SHOTS}
+    render([shot for shot in SHOTS if shot.name in wanted])
+    for name in WINDOW_SHOTS:
+        if name in wanted:
+            photograph(name)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ _COLOURED_BY = ("error of the step", "drift of what is conserved")
 _STILL = 3.0  # in units of a 96 dpi screen: a click during which the mouse moves farther is a drag
 _REACH = 8.0  # how near to a dot the mouse must be
 _LIST_EM = 21.0
+_SCALE_EM, _PICKER_EM = 3.0, 16.0
 _BOX_SCALE = 1.5  # imgui's plot leaves much room round the box, which nothing here needs
 _COLOURS = ((0.95, 0.62, 0.25), (0.35, 0.70, 0.95), (0.30, 0.80, 0.55), (0.90, 0.55, 0.75), (0.95, 0.90, 0.40), (0.65, 0.60, 0.95))
 _BALL = ImVec4(0.02, 0.02, 0.025, 1.0)
@@ -120,7 +121,10 @@ class PathView:
                 self._list(state)
             imgui.end_child()
             imgui.same_line()
-            self._space(state)
+            imgui.begin_group()
+            self._space(state, imgui.get_content_region_avail().y - _SCALE_EM * em)
+            self._scale_row()
+            imgui.end_group()
         imgui.end()
 
     def _list(self, state: WindowState) -> None:
@@ -144,9 +148,13 @@ class PathView:
             self.paths.clear()
         imgui.same_line()
         self._fit_next |= imgui.button("Fit")
-        imgui.set_next_item_width(-1.0)
+
+    def _scale_row(self) -> None:
+        em = hello_imgui.em_size()
+        imgui.set_next_item_width(_PICKER_EM * em)
         _, self._coloured_by = imgui.combo("##dots", self._coloured_by, [f"dots: {name}" for name in _COLOURED_BY])
-        view_scale.bar(self._scale, imgui.get_content_region_avail().x, hello_imgui.em_size())
+        imgui.same_line()
+        view_scale.bar(self._scale, max(imgui.get_content_region_avail().x, em), em)
 
     def _row(self, index: int, item: Shown) -> None:
         path = item.path
@@ -166,7 +174,7 @@ class PathView:
     def _scale(self) -> Scale:
         return scale_of("conservation") if self._coloured_by else _LOCAL_ERROR
 
-    def _space(self, state: WindowState) -> None:
+    def _space(self, state: WindowState, height: float) -> None:
         scene = self.paths.shown[-1].asked.scene if self.paths.shown else state.scene
         try:
             world = path_world.of(make_plan(scene))
@@ -174,7 +182,7 @@ class PathView:
             imgui.text_wrapped(str(error))
             return
         flags = implot3d.Flags_.no_legend | implot3d.Flags_.no_mouse_text | implot3d.Flags_.equal | implot3d.Flags_.no_clip
-        if not implot3d.begin_plot("##space", (-1.0, -1.0), flags.value):
+        if not implot3d.begin_plot("##space", (-1.0, height), flags.value):
             return
         implot3d.setup_axes("x [r_s]", "y [r_s]", "z [r_s]")
         cond = imgui.Cond_.always if self._fit_next else imgui.Cond_.once

@@ -12,7 +12,7 @@ from ..shapes import Float, Int
 
 _MERIDIANS = 12
 _TURN = np.linspace(0.0, 2.0 * np.pi, 73)
-_REACH = 5.0  # r_s: light bends here; what lies beyond is shown too, and a turn of the wheel brings it near
+_REACH = 4.0  # r_s: light bends here; what lies beyond is shown too, and a turn of the wheel brings it near
 _RINGS, _SPOKES = 16, 32  # of the ball
 
 
