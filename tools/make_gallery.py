@@ -47,7 +47,7 @@ SHOTS = (
     Shot("m87_like", ("m87_like",)),
     Shot("gargantua_as_filmed", ("gargantua_as_filmed",)),
     Shot("luminet_1979", ("luminet_1979",)),
-    Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0}),
+    Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
 )
 
 

@@ -155,9 +155,11 @@ def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
 
 
 def _is_active(item: Field, scene: Scene) -> bool:
-    """Whether `item` has any bearing on `scene`: those of a near or a far camera, and those of plug-ins that take part."""
+    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of automatic exposure, and those of plug-ins that take part."""
     if item.key in ("camera.fov_deg", "camera.field_m"):
         return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
+    if item.key == "post.key_light":
+        return scene.post.exposure_mode == "automatic"
     parts = item.key.split(".")
     if len(parts) < 3:
         return True

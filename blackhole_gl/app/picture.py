@@ -12,6 +12,7 @@ import numpy as np
 
 from ..render.programs import Unready
 from ..scene import Scene
+from .adaptation import Adaptation
 from .area import Area
 from .pace import Pace
 from .preparation import Preparation
@@ -58,6 +59,7 @@ class Picture:
         self._readiness = Readiness(preparation)
         self._pace = Pace()
         self._sharpening = Sharpening()
+        self._adaptation = renderer.exposure.adaptation = Adaptation()
         self._made_of: Drawing | None = None
         self._rays_stale = True
 
@@ -87,9 +89,14 @@ class Picture:
         return self.report is None or self.report.sharp
 
     @property
+    def is_settled(self) -> bool:
+        """Whether the picture has the exposure that it is to keep."""
+        return self.report is None or self.report.settled
+
+    @property
     def is_final(self) -> bool:
         """Whether further calls of `update` for the same would draw nothing."""
-        return self.is_current and self.is_sharp and self._sharpening.is_done
+        return self.is_current and self.is_sharp and self.is_settled and self._sharpening.is_done
 
     def forget(self) -> None:
         """Makes the next `update` render, whatever it is given."""
@@ -120,7 +127,9 @@ class Picture:
         if progressive is None:
             progressive = camera_moving or not (exact or self.is_current and self.is_sharp)
         drawing = Drawing(step.drawn, time, area.scaled(scale), progressive, passes=moving and not camera_moving)
-        if drawing == self._made_of and self.is_sharp and not step.rehearses:
+        if exact:
+            self._adaptation.forget()
+        if drawing == self._made_of and self.is_sharp and self.is_settled and not step.rehearses:
             return self._improve(drawing)
         fills_window = moving and self._readiness.is_over and drawing.size == area.size
         report = self._render(step, drawing, area, window if fills_window else None, now)

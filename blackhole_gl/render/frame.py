@@ -17,6 +17,7 @@ from . import diagnostics, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
+from .metering import Exposure
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
@@ -41,6 +42,8 @@ class FrameReport:
         method: the plan's method in a few words.
         reasons: why the plan chose it.
         warnings: what it makes worse than the scene asks.
+        stops: what automatic exposure adds; 0 where it is off.
+        settled: whether that is what it will add to the next frame of the same, too.
     """
 
     trace_ms: float
@@ -52,6 +55,8 @@ class FrameReport:
     method: str
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
+    stops: float
+    settled: bool
 
 
 class Renderer:
@@ -62,6 +67,7 @@ class Renderer:
         hit_map: the last trace.
         edges: the pixels of the last picture that have several rays.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
+        exposure: what makes automatic exposure up.
     """
 
     def __init__(self, ctx: moderngl.Context):
@@ -74,6 +80,7 @@ class Renderer:
         self._shade = ShadePass(ctx, self.programs)
         self.edges = EdgeRays(ctx, self.programs)
         self._views = diagnostics.ViewPass(ctx, self.programs)
+        self.exposure = Exposure(ctx, self.programs)
         self._post = PostPass(ctx, self.programs)
         self._radiance: Target | None = None
         self._picture: Target | None = None
@@ -105,8 +112,8 @@ class Renderer:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
             ShaderError: a shader has a mistake.
         """
-        inputs = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size)
         stamps = [clock.perf_counter()]
+        inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size)
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
@@ -115,8 +122,7 @@ class Renderer:
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        plan = inputs.plan
-        return FrameReport(trace_ms, shade_ms, post_ms, traced, self.hit_map.is_sharp, self.hit_map.sharpened, plan.method, plan.reasons, plan.warnings)
+        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan)
 
     def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
         """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd
@@ -134,7 +140,7 @@ class Renderer:
             raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; its colours have no mean")
         self._mean.begin((scene, time, size))
         first = self._mean.count == 0
-        middle = FrameInputs.whole(diagnostics.prepared(make_plan(scene)), time, size)
+        middle = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene))), time, size)
         inputs = replace(middle, offset=supersampling.place(self._mean.count))
         if first:
             self._trace(inputs)
@@ -171,7 +177,8 @@ class Renderer:
         Raises:
             As `render`.
         """
-        plan = diagnostics.prepared(make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples))))
+        made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))
+        plan = self.exposure.of(diagnostics.prepared(made), at_once=True)
         width, height = size
         self._fit_view(plan, size)
         total = np.zeros((height, width, 4), np.float32)
@@ -240,6 +247,7 @@ class Renderer:
         self._mean.release()
         self.edges.release()
         self._views.release()
+        self.exposure.release()
         self._shade.release()
         self._post.release()
         for target in (self._radiance, self._picture):
@@ -289,6 +297,10 @@ class Renderer:
         if old is not None:
             old.release()
         return Target.of(self.ctx, [self.ctx.texture(size, components, dtype=dtype)])
+
+    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan) -> FrameReport:
+        made, exposure = self.hit_map, self.exposure
+        return FrameReport(*took_ms, traced, made.is_sharp, made.sharpened, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:

@@ -148,7 +148,13 @@ class Post:
         "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, temperature of the disk's light, displacement from the "
         "most accurate method, drift of conserved quantities, unresolved rays.",
     )
-    exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light.")
+    exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light; on top of what automatic exposure finds.")
+    exposure_mode: str = choice(
+        "fixed", ("fixed", "automatic"),
+        "Automatic: a light meter at the camera looks at all that shines round the hole, and three fifths of the stops between its bright parts "
+        "and the key light are made up for. Neither time nor the way the camera looks changes it.",
+    )
+    key_light: float = number(0.255, 0.01, 10.0, "", "Radiance of the bright parts that automatic exposure leaves as they are.")
     bloom: bool = switch(True, "Glow around bright places, as in a lens.")
     bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")
     bloom_intensity: float = number(0.45, 0.0, 2.0, "", "Strength of the glow.")

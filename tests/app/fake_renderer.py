@@ -18,6 +18,8 @@ class Report:
     method: str = "flat colour"
     reasons: tuple = ("it is quick",)
     warnings: tuple = ()
+    stops: float = 0.0
+    settled: bool = True
 
 
 class FakePrograms:
@@ -37,6 +39,10 @@ class FakeHitMap:
         pass
 
 
+class FakeExposure:
+    """An exposure that takes any adaptation, and asks for none."""
+
+
 class FakeRenderer:
     """Keeps what it was asked for and fills the target with a colour that depends on the camera's azimuth."""
 
@@ -44,6 +50,8 @@ class FakeRenderer:
         self.calls = []
         self.programs = FakePrograms()
         self.hit_map = FakeHitMap()
+        self.exposure = FakeExposure()
+        self.settled = True
         self.fail = None
         self.glow_may_last = False
         self.us_per_pixel = 0.0
@@ -56,7 +64,7 @@ class FakeRenderer:
         self.glow_may_last = glow_may_last
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)
-        return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0)
+        return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0, settled=self.settled)
 
     def render_finer(self, scene, time, size, target=None):
         self.finer = self.finer + 1 if self.finer_of == (scene, time, size) else 1

@@ -321,6 +321,16 @@ def test_a_renderer_that_can_do_nothing_any_more_tells_of_the_first_failure(show
     shown.seen()  # some earlier picture
 
 
+def test_a_picture_is_drawn_on_until_its_exposure_has_settled(shown):
+    renderer = shown.picture.renderer
+    renderer.settled = False
+    assert shown.draw(20.0, moving=False) and shown.draw(20.0, moving=False) and not shown.picture.is_final
+    renderer.settled = True
+    assert shown.draw(20.0, moving=False) and renderer.finer == 0
+    shown.draw(20.0, moving=False)
+    assert renderer.finer == 1, "and then finer"
+
+
 def test_the_last_picture_stays_while_programs_are_missing(shown):
     shown.draw(20.0), shown.draw(40.0)
     render = shown.picture.renderer.render

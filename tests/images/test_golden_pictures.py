@@ -45,7 +45,10 @@ SHOTS = {
     "thin_disk": Shot(("thin_disk",)),
     "gargantua_as_filmed": Shot(("gargantua_as_filmed", "fine")),
     "luminet_1979": Shot(("luminet_1979", "fine")),
-    "sky_about_a_shadow": Shot(("kerr_0998_85", "fine"), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0}),
+    "sky_about_a_shadow": Shot(
+        ("kerr_0998_85", "fine"),
+        {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5},
+    ),
     "flat": Shot(("kerr",), {"rays.lensing": False}),
 }
 
