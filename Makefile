@@ -14,7 +14,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow test-pythons gallery chart stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery thumbnails chart stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -35,6 +35,10 @@ test: ## run the whole test suite
 gallery: ## the pictures of the README anew, into docs/pictures
 	@$(SETUP) run
 	$(BIN)/python tools/make_gallery.py
+
+thumbnails: ## the small pictures of the panel's pickers anew, into assets/thumbnails
+	@$(SETUP) run
+	$(BIN)/python tools/make_thumbnails.py
 
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart

@@ -17,6 +17,7 @@ from .instance_groups import InstanceGroups
 from .pickers import Pickers
 from .rows import columns, wrapped_tooltip
 from .state import WindowState
+from .thumbnails import Thumbnails
 
 _TITLES = {"hole": "Black hole", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image", "playback": "Playback"}
 _OPEN_AT_START = ("hole", "camera", "disk")
@@ -30,14 +31,14 @@ class Panel:
         self._filter = ""
         self._instances = InstanceGroups()
 
-    def draw(self, state: WindowState, reasons: Sequence[str], warnings: Sequence[str]) -> None:
+    def draw(self, state: WindowState, reasons: Sequence[str], warnings: Sequence[str], thumbnails: Thumbnails) -> None:
         """Draws the panel into the current window.
 
         Args:
             reasons: why rays are traced as they are, a phrase each.
             warnings: what they make worse than the scene asks, a sentence each.
         """
-        self._pickers.draw(state)
+        self._pickers.draw(state, thumbnails)
         _steps(state)
         _files(state)
         _remarks(state, warnings)

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from imgui_bundle import imgui
+from imgui_bundle import hello_imgui, imgui
 
 from ..scene import Scene, presets
 from . import preset_switch
 from .rows import columns, wrapped_tooltip
 from .state import WindowState
+from .thumbnails import ROW_EM, Thumbnails
+
+_HEADINGS = {"quality": "Quality of the picture", "steps": "Steps by hand", "scene": "Whole scenes", presets.USER_GROUP: "Your own"}
 
 
 class Pickers:
@@ -17,13 +20,15 @@ class Pickers:
 
     def __init__(self) -> None:
         self._listed = presets.available()
+        self._thumbnails: Thumbnails
         self._layers: dict[str, presets.Preset] = {}
         self._seen: tuple[Scene, Mapping[str, str]] | None = None
         self._remarks: dict[str, str] = {}
 
-    def draw(self, state: WindowState) -> None:
+    def draw(self, state: WindowState, thumbnails: Thumbnails) -> None:
         """Draws a table with a row for each picker."""
         self._look_again(state)
+        self._thumbnails = thumbnails
         if not imgui.begin_table("pickers", 2):
             return
         columns()
@@ -56,19 +61,46 @@ class Pickers:
         shown = current.title + self._remarks.get(current.group, "") if current else "–"
         if not imgui.begin_combo(f"##{label} preset", shown, imgui.ComboFlags_.height_large.value):
             if current:
-                wrapped_tooltip(f"{shown}\n{summary(current)}")
+                self._tooltip(current, f"{shown}\n")
             return
         if imgui.is_window_appearing():
             self._listed = presets.available()
-        listed = [info for info in self._listed if info.group in groups]
-        for before, info in zip((None, *listed), listed):
-            if before is not None and before.group != info.group:
-                imgui.separator()
-            clicked, _ = imgui.selectable(f"{info.title}##{info.name}", info == current)
-            wrapped_tooltip(summary(info))
-            if clicked:
+        above = None
+        for info in self._listed:
+            if info.group not in groups:
+                continue
+            if (named := heading(info)) != above and named:
+                imgui.separator_text(named)
+            above = named
+            if self._row(info, info == current):
                 preset_switch.pick(state, info.group, info.name)
         imgui.end_combo()
+
+    def _row(self, info: presets.PresetInfo, is_current: bool) -> bool:
+        """Draws the row of a preset; whether it was clicked."""
+        height, on_picture = 0.0, False
+        if self._thumbnails.draw(info.name, ROW_EM):
+            on_picture = imgui.is_item_clicked()
+            self._tooltip(info)
+            imgui.same_line()
+            height = ROW_EM * hello_imgui.em_size()
+        imgui.push_style_var(imgui.StyleVar_.selectable_text_align, (0.0, 0.5))
+        clicked, _ = imgui.selectable(f"{info.title}##{info.name}", is_current, 0, (0.0, height))
+        imgui.pop_style_var()
+        self._tooltip(info)
+        if on_picture:
+            imgui.close_current_popup()
+        return clicked or on_picture
+
+    def _tooltip(self, info: presets.PresetInfo, before: str = "") -> None:
+        wrapped_tooltip(before + summary(info), lambda: self._thumbnails.draw(info.name))
+
+
+def heading(info: presets.PresetInfo) -> str:
+    """What a picker writes over `info` and its like; empty where it writes nothing."""
+    if info.group == "physics":
+        return "Art" if info.is_art else "Physics"
+    return _HEADINGS.get(info.group, "")
 
 
 def summary(info: presets.PresetInfo) -> str:

@@ -35,6 +35,7 @@ from .shortcuts import Layout, Shortcuts
 from .side_by_side import SideBySide
 from .start_line import StartLine
 from .state import WindowState
+from .thumbnails import Thumbnails
 from .warm_up import WarmUp
 
 _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
@@ -179,6 +180,7 @@ class Window:
         self._gl = moderngl.create_context(require=330)
         self._picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
         self._full_screen = FullScreen(_glfw_window())
+        self._thumbnails = Thumbnails(self._gl)
 
     @property
     def picture(self) -> Picture:
@@ -243,7 +245,7 @@ class Window:
             self._panel.clear_filter()
         self._panel_width.keep()
         report = self.picture.report
-        self._panel.draw(self.state, report.reasons if report else (), report.warnings if report else ())
+        self._panel.draw(self.state, report.reasons if report else (), report.warnings if report else (), self._thumbnails)
         self.kept = window_settings.draw(self.state, self.kept)
 
     def draw_picture(self) -> None:

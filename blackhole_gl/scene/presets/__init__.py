@@ -49,7 +49,8 @@ _PARTIAL_GROUPS = ("look", "quality", "steps")
 
 @dataclass(frozen=True)
 class PresetInfo:
-    """One line of the list of presets; `group` is one of `GROUPS` or ``user``, `moves_camera` whether it says where the camera is."""
+    """One line of the list of presets; `group` is one of `GROUPS` or ``user``, `moves_camera` whether it says where the camera is, `is_art`
+    whether it sets a value that departs from physics."""
 
     group: str
     name: str
@@ -57,6 +58,7 @@ class PresetInfo:
     description: str
     path: Path
     moves_camera: bool
+    is_art: bool
 
 
 def available() -> list[PresetInfo]:
@@ -73,7 +75,8 @@ def available() -> list[PresetInfo]:
         group = shipped or preset.group or USER_GROUP
         place = (not shipped, (*GROUPS, USER_GROUP).index(group), preset.rank)
         moves_camera = any(key.startswith("camera.") for key in preset.values)
-        found.append((place, PresetInfo(group, name, preset.title or name, preset.description, path, moves_camera)))
+        is_art = any((item := fields().get(key)) is not None and item.physical not in (None, value) for key, value in preset.values.items())
+        found.append((place, PresetInfo(group, name, preset.title or name, preset.description, path, moves_camera, is_art)))
     return [info for _, info in sorted(found, key=lambda entry: entry[0])]
 
 
