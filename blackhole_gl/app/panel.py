@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 
 from imgui_bundle import ImVec4, hello_imgui, imgui
 
 from .. import plan
-from ..scene import Scene, catalogue, fields, presets
+from ..scene import Scene, catalogue, fields, presets, sections
 from ..scene.schema import Field
 from . import commands, scene_files, sought, theme, widgets
 from .camera_control import range_in
@@ -20,6 +21,8 @@ from .state import WindowState
 from .thumbnails import Thumbnails
 
 _TITLES = {"hole": "Black hole", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image", "playback": "Playback"}
+_ART = ("Art", "What makes a picture and no physics names: as you like it.")
+_COST = "A flat frame, the unit of cost, is the same picture with light running straight."
 _OPEN_AT_START = ("hole", "camera", "disk")
 
 
@@ -51,7 +54,7 @@ class Panel:
             if shown:
                 is_open = _section(section, shown, state, forced_open=bool(wanted))
                 if is_open and section == "rays":
-                    _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM)
+                    _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM, _COST)
         self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state), forced_open=bool(wanted))
 
     def shown_fields(self, scene: Scene) -> list[Field]:
@@ -102,11 +105,14 @@ def _files(state: WindowState) -> None:
         scene_files.take(state, imgui.get_clipboard_text())
 
 
+@cache
 def _sections() -> Mapping[str, list[Field]]:
-    sections: dict[str, list[Field]] = {}
+    """The rows of each section: what physics names, then art, then the plug-ins' own."""
+    found: dict[str, list[Field]] = {}
     for key, item in fields().items():
-        sections.setdefault(key.split(".", 1)[0], []).append(item)
-    return sections
+        if not item.idle:
+            found.setdefault(key.split(".", 1)[0], []).append(item)
+    return {section: sorted(items, key=lambda item: (_plug_in_of(item) is not None, item.art)) for section, items in found.items()}
 
 
 def _section(section: str, items: list[Field], state: WindowState, *, forced_open: bool) -> bool:
@@ -116,37 +122,44 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
     else:
         imgui.set_next_item_open(section in _OPEN_AT_START, imgui.Cond_.first_use_ever.value)
         sought.open_group(state, [item.key for item in items])
-    if not imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}"):
+    is_open = imgui.collapsing_header(f"{_TITLES.get(section, section.capitalize())}##{section}")
+    wrapped_tooltip(sections.SECTIONS[section].__doc__ or "")
+    if not is_open:
         return False
     _table(f"values of {section}", items, state)
     return True
 
 
 def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
-    """A row for each of `items`, those of a plug-in under its name."""
+    """A row for each of `items`, art under that heading and those of a plug-in under its name."""
     if not imgui.begin_table(name, 2):
         return
     columns()
-    group, scene = None, state.scene  # as it was: another kind picked in one row has not the values of the next
+    heading, scene = None, state.scene  # as it was: another kind picked in one row has not the values of the next
     for item in items:
-        plug_in = _plug_in_of(item)
-        if plug_in != group:
-            group = plug_in
-            _subheading(group)
+        before, heading = heading, _heading(item)
+        if heading is not None and heading != before:
+            _subheading(*heading)
         widgets.row(range_in(scene, replace(item, default=state.in_force(item))), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
         sought.mark(state, item.key)
     imgui.end_table()
 
 
-def _subheading(plug_in: catalogue.PlugIn | None) -> None:
-    if plug_in is None:
-        return
+def _heading(item: Field) -> tuple[str, str] | None:
+    """What stands over the rows of `item` and its like, and what that means; None for what physics names."""
+    plug_in = _plug_in_of(item)
+    if plug_in is not None:
+        return plug_in.label, plug_in.summary
+    return _ART if item.art else None
+
+
+def _subheading(title: str, help: str) -> None:
     imgui.table_next_row()
     imgui.table_next_column()
     imgui.dummy((0.5 * hello_imgui.em_size(), 0.0))
     imgui.same_line(0.0, 0.35 * hello_imgui.em_size())
-    imgui.text_colored(theme.ACCENT, plug_in.label)
-    wrapped_tooltip(plug_in.summary)
+    imgui.text_colored(theme.ACCENT, title)
+    wrapped_tooltip(help)
 
 
 def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
@@ -182,7 +195,7 @@ def _remarks(state: WindowState, warnings: Sequence[str]) -> None:
     _line(". ".join(remarks) or "Physics throughout", theme.DEPARTS if remarks else theme.DIM)
 
 
-def _line(text: str, colour: ImVec4) -> None:
+def _line(text: str, colour: ImVec4, more: str = "") -> None:
     """A remark that takes one line whatever it says, so that nothing below it moves while a value is dragged; a tooltip has all of it."""
     imgui.text_colored(colour, text)
-    wrapped_tooltip(text)
+    wrapped_tooltip(f"{text}\n{more}".strip())

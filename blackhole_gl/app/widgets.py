@@ -18,6 +18,10 @@ _SHOWN_DIGITS = 4
 _LOG_RATIO = 200.0  # a range that spans more than this is walked in equal ratios
 _FLAGS = imgui.SliderFlags_.always_clamp.value | imgui.SliderFlags_.no_round_to_format.value
 _LABELS = {"camera.fov_deg": "Field of view", "camera.field_m": "Picture height"}
+_OPTIONS = {
+    "s0": "orbital-plane renderer's", "s1": "BlackHoleGPU's", "page_thorne": "Page–Thorne", "shakura_sunyaev": "Shakura–Sunyaev", "zamo": "ZAMO",
+    "aces": "ACES", "agx": "AgX",
+}  # fmt: skip
 _SLOT_OF_CHOICE = {"rays.model": "ray_model", "rays.integrator": "integrator", "rays.step_control": "step_control", "sky.model": "sky"}
 
 
@@ -25,6 +29,11 @@ def label_of(key: str) -> str:
     """The words for `key` that people read: ``disk.outer_radius`` → ``Outer radius``."""
     name = key.rsplit(".", 1)[-1].removesuffix("_deg").removesuffix("_k")
     return _LABELS.get(key) or name.replace("_", " ").capitalize()
+
+
+def _option(option: str) -> str:
+    """The words for an option of a choice that people read."""
+    return _OPTIONS.get(option) or option.replace("_", " ")
 
 
 def departs(item: Field, value: Value) -> bool:
@@ -111,7 +120,7 @@ def format_value(item: Field, value: Value) -> str:
     if item.kind == "switch":
         return "on" if value else "off"
     if item.kind == "choice":
-        return str(value).replace("_", " ")
+        return _option(str(value))
     if isinstance(value, tuple):
         return f"{len(value)} entries" if value else "an empty list"
     if isinstance(value, str):
@@ -230,7 +239,7 @@ def _is_combo_reset() -> bool:
 def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     slot = _slot_of(item.key)
     plug_ins = catalogue.plug_ins(slot) if slot else {}
-    names = {option: plug_ins[option].label if option in plug_ins else option.replace("_", " ") for option in item.options}
+    names = {option: plug_ins[option].label if option in plug_ins else _option(option) for option in item.options}
     picked = str(item.default) if _is_combo_reset() else None
     if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
         for option, name in names.items():

@@ -85,7 +85,7 @@ def layer_fields() -> dict[str, Field]:
     found = {}
     for layer in plug_ins("disk_layer").values():
         key = f"{SLOTS['disk_layer'].section}.{layer.key}"
-        found[key] = Field(key, "switch", layer.traits.enabled, help=f"Layer: {layer.summary}")
+        found[key] = Field(key, "switch", layer.traits.enabled, help=f"Layer: {layer.summary}", art=True)
     return found
 
 

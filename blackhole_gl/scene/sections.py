@@ -12,10 +12,21 @@ from types import MappingProxyType
 from typing import Any
 
 
-def number(default: float | int, low: float, high: float, unit: str = "", help: str = "", *, physical: float | None = None, allow_infinity: bool = False):
+def number(
+    default: float | int,
+    low: float,
+    high: float,
+    unit: str = "",
+    help: str = "",
+    *,
+    physical: float | None = None,
+    allow_infinity: bool = False,
+    art: bool = False,
+    idle: bool = False,
+):
     """A record field that holds a number in the closed range low…high."""
     kind = "int" if isinstance(default, int) else "float"
-    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity)
+    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity, art=art, idle=idle)
     return field(default=default, metadata=facts)
 
 
@@ -24,12 +35,12 @@ def switch(default: bool, help: str = "", *, physical: bool | None = None):
     return field(default=default, metadata=dict(kind="switch", help=help, physical=physical))
 
 
-def choice(default: str, options: tuple[str, ...] | str, help: str = "", *, physical: str | None = None):
+def choice(default: str, options: tuple[str, ...] | str, help: str = "", *, physical: str | None = None, art: bool = False):
     """A record field that names one of `options`; a string names the catalogue slot whose plug-ins are the options.
 
     With the default ``auto``, that word is an option too: the plan chooses.
     """
-    return field(default=default, metadata=dict(kind="choice", options=options, help=help, physical=physical))
+    return field(default=default, metadata=dict(kind="choice", options=options, help=help, physical=physical, art=art))
 
 
 @dataclass(frozen=True)
@@ -37,9 +48,11 @@ class Hole:
     """The black hole."""
 
     spin: float = number(0.0, -0.9999, 0.9999, "a*", "Angular momentum J c/(G M²). Negative turns clockwise seen from +z.")
-    gravity_strength: float = number(1.0, 0.1, 10.0, "×", "Multiplies the bending of light in the marched models; 1 is physics, all else is art.", physical=1.0)
+    gravity_strength: float = number(
+        1.0, 0.1, 10.0, "×", "Multiplies the bending of light in the marched models; 1 is physics, all else is art.", physical=1.0, art=True,
+    )
     horizon_size: float = number(
-        1.0, 0.01, 1.0, "r_s", "Radius at which the marched models take a ray as captured; 1 is the Schwarzschild horizon.", physical=1.0,
+        1.0, 0.01, 1.0, "r_s", "Radius at which the marched models take a ray as captured; 1 is the Schwarzschild horizon.", physical=1.0, art=True,
     )
 
 
@@ -81,7 +94,8 @@ class Rays:
     step_length: float = number(0.0, 0.0, 2.0, "r_s", "Length Δt₀ of a Cartesian step (at r = 3 r_s where the step follows the radius); 0: from the tolerance.")
     step_angle: float = number(
         0.0, 0.0, 0.8, "rad",
-        "Angular step κ of models that march in angles; halving it divides the error by about 16; 0: from the tolerance.",
+        "Step κ, an angle, of models that march in angles: the smaller, the more exact, and the dearer; halving it divides the error by about 16. "
+        "0: from the tolerance.",
     )
     max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
@@ -109,11 +123,16 @@ class Disk:
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
     outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge.")
-    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Thickness of the look layers' pattern; the disk itself is thin.")
+    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing yet: the disk is thin, and so is the pattern on it.", idle=True)
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
     temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
     temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
-    frequency_shift: str = choice("exact", ("exact", "s0", "s1"), "The g-factor: exact, or the formula of an older viewer.", physical="exact")
+    frequency_shift: str = choice(
+        "exact", ("exact", "s0", "s1"),
+        "The g-factor, energy received over energy sent out: exact, or by an older viewer's formula, that of the orbital-plane renderer (s0) or of "
+        "BlackHoleGPU (s1).",
+        physical="exact",
+    )
     beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
     colour: str = choice(
         "blackbody", ("blackbody", "white"),
@@ -122,12 +141,12 @@ class Disk:
     doppler_colour: bool = switch(True, "Shift the colour by the motion of the matter.", physical=True)
     beaming: bool = switch(True, "Brighten what approaches, dim what recedes.", physical=True)
     redshift: bool = switch(True, "Redden and dim what climbs out of the well.", physical=True)
-    compositing: str = choice("opacity", ("additive", "opacity"), "Whether crossings add up or nearer ones hide farther ones.")
-    opacity: float = number(0.85, 0.0, 1.0, "", "How much of what lies behind a crossing is hidden, where the disk is dense.")
-    emission_strength: float = number(0.18, 0.0, 2.0, "", "Brightness of the disk.")
-    density_gain: float = number(9200.0, 0.0, 40000.0, "", "Contrast of the look layers.")
-    noise_scale: float = number(0.68, 0.01, 5.0, "1/r_s", "Frequency of the coarsest pattern of the look layers.")
-    noise_speed: float = number(0.7, 0.0, 5.0, "×", "How fast the look layers' pattern orbits; 1 is the Keplerian rate.")
+    compositing: str = choice("opacity", ("additive", "opacity"), "Whether crossings add up or nearer ones hide farther ones.", art=True)
+    opacity: float = number(0.85, 0.0, 1.0, "", "How much of what lies behind a crossing is hidden, where the disk is dense.", art=True)
+    emission_strength: float = number(0.18, 0.0, 2.0, "", "Brightness of the disk.", art=True)
+    density_gain: float = number(9200.0, 0.0, 40000.0, "", "Contrast of the look layers.", art=True)
+    noise_scale: float = number(0.68, 0.01, 5.0, "1/r_s", "Frequency of the coarsest pattern of the look layers.", art=True)
+    noise_speed: float = number(0.7, 0.0, 5.0, "×", "How fast the look layers' pattern orbits; 1 is the Keplerian rate.", art=True)
 
 
 @dataclass(frozen=True)
@@ -136,7 +155,7 @@ class Sky:
 
     enabled: bool = switch(True, "Show stars and galaxy.")
     model: str = choice("procedural", "sky", "Where the sky's radiance comes from.")
-    brightness: float = number(1.0, 0.0, 10.0, "×", "Brightness of the whole sky.")
+    brightness: float = number(1.0, 0.0, 10.0, "×", "Brightness of the whole sky.", art=True)
 
 
 @dataclass(frozen=True)

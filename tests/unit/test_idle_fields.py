@@ -1,0 +1,26 @@
+"""What moves nothing is not offered: a number is idle exactly when neither shader nor program reads it."""
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import blackhole_gl
+from blackhole_gl.resources import shaders_dir
+from blackhole_gl.scene import fields
+
+NUMBERS = [key for key, item in fields().items() if key.count(".") == 1 and item.kind in ("float", "int")]
+
+
+@cache
+def sources() -> str:
+    programs = Path(next(iter(blackhole_gl.__path__))).rglob("*.py")
+    files = [*shaders_dir().rglob("*.glsl"), *shaders_dir().rglob("*.frag"), *programs]
+    return "\n".join(path.read_text(encoding="utf-8") for path in files if path.name != "sections.py")
+
+
+@pytest.mark.parametrize("key", NUMBERS)
+def test_a_number_is_idle_if_nothing_reads_it(key: str) -> None:
+    read = re.search(rf"\b{key.replace('.', '[._]')}\b", sources()) is not None
+    assert fields()[key].idle == (not read)
