@@ -138,6 +138,12 @@ def reset_all(state: WindowState) -> None:
     state.put_in_force(state.home, state.chosen)
 
 
+def work_panel_by_keys(state: WindowState) -> None:
+    """Gives the arrows, TAB, SPACE and ENTER to the panel, or takes them back."""
+    state.panel_keys = not state.panel_keys
+    state.show_panel |= state.panel_keys
+
+
 def flip(name: str) -> Callable[[WindowState], None]:
     """A command that turns the state's switch `name` over."""
 
@@ -158,6 +164,8 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "redo": WindowState.redo,
     "help": flip("show_help"),
     "search": flip("show_search"),
+    "picture_window": flip("show_picture_window"),
+    "panel_keys": work_panel_by_keys,
     "picture": flip("picture_wanted"),
     "full_screen": flip("full_screen"),
     "view": next_view,

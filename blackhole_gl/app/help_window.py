@@ -11,6 +11,7 @@ from . import theme
 from .keys import ACTIONS, Bindings, shown, template
 from .state import WindowState
 
+_WIDTH_EM = 46.0
 _MOUSE = (
     ("Drag", "Orbit"),
     ("Wheel, two fingers", "Move closer or away"),
@@ -22,7 +23,9 @@ _MOUSE = (
     ("Right-click a name", "More ways to reset"),
     ("Ctrl+click a slider", "Type the value"),
     ("Click an orange dot", "Back to physics"),
-    ("ESC", "Leave a field, a list, this window, full screen"),
+    ("Drag or click the time", "Set the scene's time"),
+    ("Drag the panel's edge", "Make the panel wider or narrower"),
+    ("ESC", "Leave a field, a list, a window, the panel's keys, full screen"),
 )
 
 
@@ -37,7 +40,9 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
     em = hello_imgui.em_size()
     centre = imgui.get_main_viewport().get_center()
     imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
-    imgui.set_next_window_size_constraints((24.0 * em, 0.0), (40.0 * em, imgui.get_main_viewport().size.y))
+    screen = imgui.get_main_viewport().size
+    width = min(_WIDTH_EM * em, 0.95 * screen.x)
+    imgui.set_next_window_size_constraints((width, 0.0), (width, screen.y))
     flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
     visible, stays = imgui.begin("Help", True, flags.value)
     state.show_help = bool(stays)
@@ -51,13 +56,15 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:
-    if imgui.begin_table(name, 2, imgui.TableFlags_.sizing_fixed_fit.value):
+    if imgui.begin_table(name, 2):
+        imgui.table_setup_column("left", imgui.TableColumnFlags_.width_fixed.value)
+        imgui.table_setup_column("right", imgui.TableColumnFlags_.width_stretch.value)
         for left, right in rows:
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.text_colored(theme.ACCENT, left)
             imgui.table_next_column()
-            imgui.text_unformatted(right)
+            imgui.text_wrapped(right)
         imgui.end_table()
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Protocol
 
 from imgui_bundle import hello_imgui, imgui, immapp
 
-from . import theme
+from . import fonts, theme
 from .opening import WindowError, open_platform
 
 TITLE = "Blackhole GL"
@@ -40,7 +39,7 @@ def set_up(params: hello_imgui.RunnerParams) -> None:
         raise WindowError(f"no window with OpenGL 3.3 can be opened ({error}). `blackhole-gl check` says what is missing.") from None
 
 
-def parameters(window: Callbacks, size: tuple[int, int], load_fonts: Callable[[], None] = theme.load_fonts) -> hello_imgui.RunnerParams:
+def parameters(window: Callbacks, size: tuple[int, int]) -> hello_imgui.RunnerParams:
     """Everything about the window.
 
     Args:
@@ -61,13 +60,25 @@ def parameters(window: Callbacks, size: tuple[int, int], load_fonts: Callable[[]
     params.docking_params.dockable_windows = [panel]
     callbacks = params.callbacks
     callbacks.setup_imgui_config = _setup_imgui
-    callbacks.load_additional_fonts = load_fonts
+    callbacks.load_additional_fonts = fonts.load
     callbacks.setup_imgui_style = theme.apply
     callbacks.post_init = window.start
     callbacks.pre_new_frame = window.before_frame
     callbacks.show_gui = window.frame
     callbacks.custom_background = window.draw_picture
     return params
+
+
+def work_panel_by_keys(on: bool) -> None:
+    """Gives TAB, the arrows, SPACE and ENTER to the panel, beginning with the frame to come, or takes them back. Call before each frame."""
+    io, docking = imgui.get_io(), hello_imgui.get_runner_params().docking_params
+    keyboard, no_keys = imgui.ConfigFlags_.nav_enable_keyboard.value, imgui.WindowFlags_.no_nav_inputs.value
+    was_on = bool(io.config_flags & keyboard)
+    io.config_flags = io.config_flags | keyboard if on else io.config_flags & ~keyboard
+    docking.dockable_window_of_name(PANEL).imgui_window_flags = 0 if on else no_keys
+    if on and not was_on:
+        docking.focus_dockable_window(PANEL)
+        imgui.internal.set_nav_cursor_visible_after_move()
 
 
 def try_out() -> str:

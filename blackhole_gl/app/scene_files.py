@@ -58,6 +58,19 @@ def load(state: WindowState) -> None:
     state.tell(f"Loaded {path}", preset.skipped)
 
 
+def open_chosen(state: WindowState, path: Path) -> None:
+    """Shows the scene of `path`."""
+    state.file = str(path)
+    load(state)
+
+
+def save_chosen(state: WindowState, path: Path) -> None:
+    """Saves the scene to `path`, which the user has agreed to have replaced; the name ends in ``.toml`` whatever was typed."""
+    state.file = str(path if path.suffix.lower() == ".toml" else path.with_name(path.name + ".toml"))
+    state.replace_file = str(path_of(state.file))
+    save(state)
+
+
 def text_of(state: WindowState) -> str:
     """The scene as TOML for the clipboard."""
     state.say("The scene is in the clipboard, as TOML.")
@@ -86,7 +99,7 @@ def _open(state: WindowState, scene: Scene, preset: presets.Preset) -> None:
 
 def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
     """Writes `pixels` ((height, width, 3) uint8, top row first) with the scene inside to a new file in `folder`."""
-    path = _new_name(folder, datetime.now().strftime("blackhole-%Y%m%d-%H%M%S"))
+    path = new_picture(folder)
     try:
         png.write(path, pixels, presets.picture_text(state.scene, state.time, folder.absolute(), paused=state.paused))
     except OSError as error:
@@ -95,7 +108,9 @@ def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
     state.say(f"Saved {path}")
 
 
-def _new_name(folder: Path, stem: str) -> Path:
+def new_picture(folder: Path) -> Path:
+    """A name for a picture in `folder` that is not taken yet."""
+    stem = datetime.now().strftime("blackhole-%Y%m%d-%H%M%S")
     path, count = folder / f"{stem}.png", 1
     while path.exists():
         count += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 from imgui_bundle import imgui
@@ -14,6 +15,7 @@ from .typed_keys import Press, Typing, latin
 
 _RENAMED = {"LEFT": "left_arrow", "RIGHT": "right_arrow", "UP": "up_arrow", "DOWN": "down_arrow"}
 _MODIFIERS = {"CTRL": imgui.Key.mod_ctrl, "SHIFT": imgui.Key.mod_shift, "ALT": imgui.Key.mod_alt, "SUPER": imgui.Key.mod_super}
+_FUNCTION_KEY = re.compile(r"F\d+")
 _HELD = frozenset(action.name for action in ACTIONS if action.held)
 _SIGNS = {
     "apostrophe": "'", "comma": ",", "minus": "-", "period": ".", "slash": "/", "semicolon": ";", "equal": "=", "left_bracket": "[", "backslash": "\\",
@@ -83,15 +85,19 @@ class Shortcuts:
         self._typing = Typing(_PRINTED_KEYS, _KEYPAD)
         self._down: dict[str, int] = {}
 
-    def poll(self) -> tuple[list[str], list[str]]:
-        """The actions pressed in this frame, and those held. Call once in each frame."""
+    def poll(self, panel_keys: bool = False) -> tuple[list[str], list[str]]:
+        """The actions pressed in this frame, and those held. Call once in each frame.
+
+        Args:
+            panel_keys: whether the keys without a character work the panel.
+        """
         if imgui.get_io().want_text_input:
             self._down.clear()
             self._typing.forget()
             return [], []
         pressed, held = [], {name for name, key in self._down.items() if imgui.is_key_down(imgui.Key(key))}
         self._down = {name: self._down[name] for name in held}
-        for name, key in self._begun():
+        for name, key in self._begun(panel_keys):
             if name not in _HELD:
                 pressed.append(name)
                 continue
@@ -100,9 +106,11 @@ class Shortcuts:
                 self._down[name] = key
         return pressed, list(held)
 
-    def _begun(self) -> Iterator[tuple[str, int | None]]:
+    def _begun(self, panel_keys: bool) -> Iterator[tuple[str, int | None]]:
         """The actions whose chord was struck in this frame, and the key to be let go."""
         for name, chord, code in self._by_key:
+            if panel_keys and not (chord.modifiers or _FUNCTION_KEY.fullmatch(chord.key)):
+                continue
             if imgui.shortcut(code, imgui.InputFlags_.route_global.value):
                 yield name, _imgui_key(chord)
         presses, modifiers = self._presses()

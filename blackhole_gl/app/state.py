@@ -48,6 +48,7 @@ class WindowState:
         clock: the window's own clock in seconds, advanced by each frame.
         holes: spinning or not → the values that S brings back.
         file: what the panel's file field says.
+        panel_keys: whether TAB, arrows, SPACE and ENTER work the panel.
         sought: the setting that the panel is to show.
         replace_file: the path that the next Save may overwrite.
         shader_error: what is wrong with the shaders on disk, or None.
@@ -71,6 +72,8 @@ class WindowState:
     show_paths: bool = False
     show_sides: bool = False
     show_search: bool = False
+    show_picture_window: bool = False
+    panel_keys: bool = False
     sought: Sought | None = None
     full_screen: bool = False
     picture_wanted: bool = False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 FONT_SIZE = 15.0  # at 96 dpi; the runner scales it for the screen at hand
 
@@ -24,14 +24,6 @@ def _grey(value: float, alpha: float = 1.0) -> ImVec4:
 
 def _accent(alpha: float) -> ImVec4:
     return ImVec4(ACCENT.x, ACCENT.y, ACCENT.z, alpha)
-
-
-def load_fonts() -> None:
-    """Loads the text font, and a second one for the signs it lacks (₀, ⁵, →). Both come with imgui-bundle."""
-    hello_imgui.load_font("fonts/DroidSans.ttf", FONT_SIZE)
-    second = hello_imgui.FontLoadingParams()
-    second.merge_to_last_font = True
-    hello_imgui.load_font("fonts/Inconsolata-Medium.ttf", FONT_SIZE, second)
 
 
 def apply() -> None:

@@ -17,9 +17,10 @@ import moderngl
 
 from ..resources import user_config_dir
 from ..scene import Scene, catalogue
-from . import bar, commands, help_window, kept, keys, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings
+from . import bar, commands, file_commands, help_window, kept, keys, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings
 from .area import Area
 from .ending import Ending
+from .file_dialog import FileDialog
 from .full_screen import FullScreen
 from .gesture import Gesture
 from .live_chart import LiveChart
@@ -29,6 +30,7 @@ from .panel import Panel
 from .panel_width import PanelWidth
 from .path_view import PathView
 from .picture import Picture
+from .picture_window import PictureWindow
 from .preparation import Preparation
 from .search_window import SearchWindow
 from .shortcuts import Layout, Shortcuts
@@ -108,6 +110,8 @@ def run(
             at_end.callback(window.remember)
             at_end.callback(window.warm_up.close)
             at_end.callback(window.live_chart.close)
+            at_end.callback(window.picture_window.close)
+            at_end.callback(window.dialog.close)
             while not (params.app_shall_exit or ending.signal or (driver is not None and driver.finished)):
                 immapp.manual_render.render()
     return window.state
@@ -147,6 +151,9 @@ class Window:
         self._gesture = Gesture()
         self._start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
         self._search = SearchWindow()
+        self.dialog = FileDialog()
+        self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
+        self._had_popup = False
         self._bar = bar.toolbar(self.draw_bar)
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
@@ -199,7 +206,8 @@ class Window:
         params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
         params.callbacks.edges_toolbars = {hello_imgui.EdgeToolbarType.top: self._bar} if self.state.show_panel else {}
         imgui.get_style().font_scale_main = self.kept.text_size
-        measuring = self.live_chart.busy(self.state) or self.path_view.busy or self.side_by_side.busy(self.state)
+        runner.work_panel_by_keys(self.state.panel_keys)
+        measuring = self.live_chart.busy(self.state) or self.path_view.busy or self.picture_window.busy or self.side_by_side.busy(self.state)
         busy = self.state.is_moving or self._start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
@@ -210,7 +218,7 @@ class Window:
         """The hand's doings, and what is written over the picture."""
         state, view = self.state, self.view()
         dt = min(imgui.get_io().delta_time, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
-        pressed, held = self._shortcuts.poll()
+        pressed, held = self._shortcuts.poll(state.panel_keys)
         for name in pressed:
             self.do(name)
         self._escape()
@@ -230,6 +238,8 @@ class Window:
         if self.kept.start_line:
             self._start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
         self._search.draw(state, lambda: search_window.entries(state, self._panel.shown_fields(state.scene), self.bindings, self.do))
+        self.dialog.poll()
+        self.picture_window.draw(state)
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
@@ -257,6 +267,7 @@ class Window:
         self._render(view.area, window)
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.path_view.advance(self._gl, self.picture.renderer)
+        self.picture_window.advance(self._gl, self.state)
         self.picture.draw(window, view.area)
         self.side_by_side.draw(self.state, window, view.area)
 
@@ -268,28 +279,28 @@ class Window:
 
     def do(self, action: str) -> None:
         """Does what the key of `action` does."""
-        state = self.state
-        state.record()
-        if action == "save":
-            scene_files.save(state)
-        elif action == "copy":
-            imgui.set_clipboard_text(scene_files.text_of(state))
-        elif action == "paste":
-            scene_files.take(state, imgui.get_clipboard_text())
+        self.state.record()
+        if action in file_commands.NAMES:
+            file_commands.do(action, self.state, self.dialog)
         elif action == "quit":
             hello_imgui.get_runner_params().app_shall_exit = True
         else:
-            commands.COMMANDS[action](state)
+            commands.COMMANDS[action](self.state)
 
     def _escape(self) -> None:
         """ESC puts away the uppermost thing that can be put away; a field that is typed in leaves by itself."""
         state = self.state
+        had_popup, self._had_popup = self._had_popup, imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
         if not imgui.is_key_pressed(imgui.Key.escape, False) or imgui.get_io().want_text_input:
             return
-        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value):
+        if had_popup or self._had_popup:  # where keys work the panel, imgui has closed it
             imgui.internal.close_popups_except_modals()
+        elif state.panel_keys:
+            state.panel_keys = False
         elif state.show_search:
             state.show_search = False
+        elif state.show_picture_window:
+            state.show_picture_window = False
         elif state.show_help:
             state.show_help = False
         else:

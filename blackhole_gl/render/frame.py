@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -177,21 +177,33 @@ class Renderer:
         Raises:
             As `render`.
         """
+        for share in self.still(scene, time, size, samples):
+            if progress is not None:
+                progress(share)
+
+    def still(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1, tile: int = TILE) -> Iterator[float]:
+        """Draws what `render_still` does, one ray a pixel of one tile at a time; yields the share done after each. The picture is there at the end.
+
+        Args:
+            tile: side of the tiles in pixels; even.
+
+        Raises:
+            As `render`.
+        """
         made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))
         plan = self.exposure.of(diagnostics.prepared(made), at_once=True)
         width, height = size
         self._fit_view(plan, size)
         total = np.zeros((height, width, 4), np.float32)
-        tiles = [(x, y) for y in range(0, height, TILE) for x in range(0, width, TILE)]
+        tiles = [(x, y) for y in range(0, height, tile) for x in range(0, width, tile)]
         passes = [(tile, index) for tile in tiles for index in range(samples * samples)]
         for done, ((x, y), index) in enumerate(passes):
             shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
-            tile = min(TILE, width - x), min(TILE, height - y)
-            inputs = FrameInputs(plan, time, tile, size, (x + shift[0], y + shift[1]))
+            part = min(tile, width - x), min(tile, height - y)
+            inputs = FrameInputs(plan, time, part, size, (x + shift[0], y + shift[1]))
             self._trace(inputs)
-            total[y : y + tile[1], x : x + tile[0]] += _radiance_of(self._shaded_with_edges(inputs)) / samples**2
-            if progress is not None:
-                progress((done + 1) / len(passes))
+            total[y : y + part[1], x : x + part[0]] += _radiance_of(self._shaded_with_edges(inputs)) / samples**2
+            yield (done + 1) / len(passes)
         texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
         self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
         texture.release()

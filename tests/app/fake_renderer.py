@@ -1,5 +1,6 @@
 """A renderer of flat colours, for tests of the window that do not look at physics."""
 
+import time as clock
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,6 +66,18 @@ class FakeRenderer:
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)
         return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0, settled=self.settled)
+
+    def still(self, scene, time, size, samples, tile):
+        self.still_pixels = np.full((size[1], size[0], 3), 100, np.uint8)
+        for done in range(10 * samples):
+            clock.sleep(0.005)
+            yield (done + 1) / (10 * samples)
+
+    def read_rgb8(self):
+        return self.still_pixels
+
+    def release(self):
+        pass
 
     def render_finer(self, scene, time, size, target=None):
         self.finer = self.finer + 1 if self.finer_of == (scene, time, size) else 1

@@ -6,12 +6,13 @@ from imgui_bundle import imgui
 
 # isort: split
 import numpy as np
-from hands import Hands
+from hands import Hands, wait
 from PIL import Image
-from scenarios import PICTURES, save_picture
+from scenarios import save_picture
 
-from blackhole_gl.app import kept
+from blackhole_gl.app import file_dialog, kept
 from blackhole_gl.app.runner import PANEL
+from blackhole_gl.scene import presets
 
 Key = imgui.Key
 BAR = "//##Top_2123243"  # as the runner names it
@@ -33,10 +34,10 @@ def bar_does_what_keys_do(hands: Hands) -> None:
     press_bar(hands, "search")
     assert hands.state.show_search
     hands.press(Key.escape)
-    before = len(list((hands.folder.parent / PICTURES).glob("*.png")))
-    press_bar(hands, "picture")
-    hands.context.yield_(3)
-    assert len(list((hands.folder.parent / PICTURES).glob("*.png"))) == before + 1
+    press_bar(hands, "picture_window")
+    assert hands.state.show_picture_window
+    hands.press(Key.escape)
+    assert not hands.state.show_picture_window
 
 
 def bar_goes_with_the_panel(hands: Hands) -> None:
@@ -144,3 +145,133 @@ def panel_edge_stays_where_it_is_drawn(hands: Hands) -> None:
     assert abs(hands.window.view().width - (width - 60.0)) < 4.0
     hands.window.remember()
     assert kept.load()[0].panel_em > hands.window.kept.panel_em + 2.0
+
+
+def picture_of_any_size(hands: Hands) -> None:
+    """Width, height, rays and name as typed; frames go on meanwhile; what is there is replaced only when asked a second time."""
+    path = hands.folder / "日本.png"
+    press_bar(hands, "picture_window")
+    for name, value in (("##width", 300), ("##height", 200), ("##rays", 3), ("##path", str(path))):
+        hands.context.item_input_value(f"//Picture/{name}", value)
+    hands.context.item_click("//Picture/Save")
+    frames, shares, window = 0, set(), hands.window.picture_window
+    while window.busy:
+        frames, shares = frames + 1, shares | {window._still.share if window._still else 0.0}
+        hands.context.yield_()
+    assert frames > 4 and len(shares) > 3, "drawn between frames"
+    assert Image.open(path).size == (300, 200) and presets.from_png(path) == hands.scene
+    assert str(path) in hands.state.notice.text
+    written = path.stat().st_mtime_ns
+    hands.context.item_click("//Picture/Save")
+    hands.context.yield_(3)
+    assert not window.busy and path.stat().st_mtime_ns == written
+    hands.context.item_input_value("//Picture/##rays", 16)
+    hands.context.item_click("//Picture/Save")
+    hands.context.yield_(2)
+    hands.context.item_click("//Picture/Stop")
+    hands.context.yield_(2)
+    assert not window.busy and path.stat().st_mtime_ns == written, "stopped, and the old picture is there"
+    hands.context.item_input_value("//Picture/##path", str(hands.folder / "no.jpg"))
+    hands.context.item_click("//Picture/Save")
+    hands.context.yield_(2)
+    assert not window.busy and "PNG" in window._said
+    hands.press(Key.escape)
+
+
+def picture_that_cannot_be_written_is_told(hands: Hands) -> None:
+    (hands.folder / "file").write_text("")
+    press_bar(hands, "picture_window")
+    hands.context.item_input_value("//Picture/##path", str(hands.folder / "file" / "a.png"))
+    hands.context.item_click("//Picture/Save")
+    wait(hands, lambda: hands.state.notice is not None and hands.state.notice.is_error, seconds=20.0)
+    assert str(hands.folder / "file" / "a.png") in hands.state.notice.text
+    hands.press(Key.escape)
+
+
+def scenes_by_the_systems_dialog(hands: Hands) -> None:
+    """tests/app/test_window.py puts a `zenity` there that answers with the text of a file."""
+    answer = kept.file().parent / "answer"
+    path = hands.folder / "ünï 日本"
+    answer.write_text(f"{path}\n", encoding="utf-8")
+    hands.context.key_press(Key.mod_ctrl | Key.mod_shift | Key.s)
+    wait(hands, lambda: path.with_name(path.name + ".toml").exists())
+    saved = hands.scene
+    answer.write_text(f"{path}.toml\n", encoding="utf-8")
+    hands.press(Key.s)
+    assert hands.scene != saved
+    press_bar(hands, "open")
+    wait(hands, lambda: hands.scene == saved)
+    press_bar(hands, "picture_window")
+    answer.write_text(f"{hands.folder / 'chosen'}\n", encoding="utf-8")
+    hands.context.item_click("//Picture/Choose …")
+    wait(hands, lambda: hands.window.picture_window._path == str(hands.folder / "chosen.png"))
+    answer.write_text("", encoding="utf-8")
+    press_bar(hands, "open")
+    wait(hands, lambda: not hands.window.dialog.is_open)
+    assert hands.scene == saved, "nothing was chosen"
+    hands.press(Key.escape)
+
+
+def without_a_dialog_the_path_is_typed(hands: Hands) -> None:
+    there, file_dialog.is_there = file_dialog.is_there, lambda: False
+    try:
+        press_bar(hands, "open")
+        assert "zenity" in hands.state.notice.text and "file field" in hands.state.notice.text and not hands.window.dialog.is_open
+    finally:
+        file_dialog.is_there = there
+
+
+def panel_by_keys_alone(hands: Hands) -> None:
+    """F6, then arrows to the disk's switch, SPACE; a list opens, is left and the keys are the picture's again."""
+    before = hands.scene
+    hands.press(Key.f6)
+    hands.context.yield_(3)
+    assert hands.state.panel_keys
+    goes_to(hands, f"//{PANEL}/values of disk/##disk.enabled")
+    hands.context.key_press(Key.space)
+    hands.context.yield_(2)
+    assert not hands.scene.disk.enabled
+    hands.context.key_press(Key.space)
+    hands.context.yield_(2)
+    assert hands.scene == before, "and no arrow has moved the camera"
+    goes_to(hands, f"//{PANEL}/values of camera/##camera.observer")
+    hands.context.key_press(Key.space)
+    hands.context.yield_(3)
+    assert imgui.internal.find_window_by_name("##Combo_00").active
+    hands.context.key_press(Key.escape)
+    hands.context.yield_(3)
+    assert not imgui.internal.find_window_by_name("##Combo_00").active and hands.state.panel_keys
+    hands.context.key_press(Key.escape)
+    hands.context.yield_(2)
+    assert not hands.state.panel_keys
+    hands.press(Key.space)
+    assert not hands.scene.disk.enabled, "SPACE is the picture's again"
+
+
+def goes_to(hands: Hands, item: str) -> None:
+    """Goes to the top of the panel, and strikes the arrow until `item` has the keyboard."""
+    hands.context.scroll_to_top(f"//{PANEL}")
+    wanted = hands.context.item_info(item).id_
+    hands.context.key_press(Key.home)
+    hands.context.yield_(3)
+    for _ in range(80):
+        if imgui.get_current_context().nav_id == wanted:
+            return
+        hands.context.key_press(Key.down_arrow)
+        hands.context.yield_(2)
+    raise AssertionError(f"{item} is not reached")
+
+
+def letters_of_other_scripts(hands: Hands) -> None:
+    """tests/app/test_window.py puts a font with Georgian and Armenian letters into the configuration folder; ours has neither."""
+    font = imgui.get_font()
+    assert all(font.is_glyph_in_font(ord(letter)) for letter in "აԱя₀")
+    assert not font.is_glyph_in_font(0xE123), "a private letter, which nobody has"
+
+
+def a_sideways_wheel_does_nothing(hands: Hands) -> None:
+    before = hands.scene
+    hands.to_picture()
+    hands.context.mouse_wheel_x(3.0)
+    hands.settle()
+    assert hands.scene == before

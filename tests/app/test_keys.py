@@ -67,7 +67,7 @@ def test_what_is_no_chord_is_refused(text):
 
 
 def test_every_action_does_something():
-    elsewhere = {"save", "copy", "paste", "quit"}  # they need the clipboard, a file or the runner; see window.py
+    elsewhere = {"save", "save_as", "open", "copy", "paste", "quit"}  # they need the clipboard, a file or the runner; see file_commands.py and window.py
     assert {action.name for action in ACTIONS if not action.held} == set(COMMANDS) | elsewhere
 
 

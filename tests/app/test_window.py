@@ -2,10 +2,12 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib
 import pytest
 
 from tests.unit import kinds
@@ -13,17 +15,30 @@ from tests.unit import kinds
 HERE = Path(__file__).resolve().parent
 # Read as text: importing scenarios.py would load imgui into the test process, where a later test may want another GLFW.
 TEXT = (HERE / "scenarios.py").read_text(encoding="utf-8") + (HERE / "scenarios_entry.py").read_text(encoding="utf-8")
-HELPERS = ("save_picture", "press_bar")
+HELPERS = ("save_picture", "press_bar", "goes_to")
 SCENARIOS = [name for name in re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE) if name not in HELPERS]
 REAL = re.findall(r"\w+", re.search(r"^WITH_THE_REAL_RENDERER = \((.*)\)", TEXT, re.MULTILINE)[1])
 WITH_KINDS = re.findall(r"\w+", re.search(r"^WITH_KINDS = \((.*)\)", TEXT, re.MULTILINE)[1])
 PRETENDED = [name for name in SCENARIOS if name not in REAL + WITH_KINDS]
 
 
+def pretended_dialog(folder: Path) -> Path:
+    """The folder of a `zenity` that chooses, in place of a user, what the file ``answer`` beside the keys says."""
+    program = folder / "bin" / "zenity"
+    program.parent.mkdir()
+    program.write_text(f"#!/bin/sh\ncat '{folder}/answer'\n", encoding="utf-8")
+    program.chmod(0o755)
+    return program.parent
+
+
 def run(names: list[str], folder: Path) -> None:
     """Runs scenarios in one process; `folder` stands for the user's configuration folder."""
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     environment["BLACKHOLE_GL_CONFIG_DIR"] = str(folder)
+    environment["PATH"] = os.pathsep.join([str(pretended_dialog(folder)), environment["PATH"]])
+    (folder / "fonts").mkdir()
+    shutil.copy(Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"), folder / "fonts")
+    (folder / "fonts" / "broken.ttf").write_bytes(b"no font at all")
     if "preset_switches_never_freeze" in names:
         environment["MESA_SHADER_CACHE_DIR"] = str(folder / "compiled")  # empty: as on the first day
     done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, capture_output=True, text=True, timeout=250)

@@ -121,6 +121,22 @@ def test_a_still_in_tiles_is_the_frame(renderer: Renderer) -> None:
     np.testing.assert_allclose(renderer.read_rgb8().astype(int), frame, atol=1)
 
 
+def test_a_still_goes_on_between_the_frames_of_another_renderer(renderer: Renderer) -> None:
+    """In tiles of 64, as the window makes it between its own frames, against one in tiles of 512; a tile's border as above, and pixels at edges, which
+    are found by their neighbours, have one ray."""
+    scene, size = presets.load(["kerr", "smooth"], {"sky.enabled": False, "rays.edges": 1}), (150, 100)
+    renderer.render_still(scene, 0.0, size, 2)
+    at_once = renderer.read_rgb8().astype(int)
+    other = Renderer(renderer.ctx)
+    shares = []
+    for share in other.still(scene, 0.0, size, 2, 64):
+        shares.append(share)
+        renderer.render(presets.load(["schwarzschild"]), share, SIZE)
+    assert shares == sorted(shares) and len(shares) == 3 * 2 * 4 and shares[-1] == 1.0
+    np.testing.assert_allclose(other.read_rgb8().astype(int), at_once, atol=1)
+    other.release()
+
+
 def test_fates_and_steps_are_those_of_the_whole_map(renderer: Renderer) -> None:
     renderer.render(presets.load(["kerr"]), 0.0, SIZE)
     hits = renderer.hits()
