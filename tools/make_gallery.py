@@ -22,7 +22,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 
 WINDOW = Path(__file__).resolve().parent / "window_pictures.py"
-WINDOW_SHOTS = ("path_view", "side_by_side")
+WINDOW_SHOTS = ("window", "path_view", "side_by_side")
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "pictures"
 SIZE = (960, 540)
 SAMPLES = 2

@@ -29,6 +29,7 @@ from blackhole_gl.app.window import Window  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 SIZE = (960, 600)
+WITH_PANEL = (1280, 800)
 _PATIENCE_S = 300.0
 _EULER = {"rays.model": "schwarzschild", "rays.integrator": "euler"}
 
@@ -38,12 +39,21 @@ Steps = Iterator[Callable[[], bool]]
 
 @dataclass(frozen=True)
 class WindowShot:
-    """One picture: the preset, what differs from it, what is done in the window, and the scene time in r_s/c."""
+    """One picture: the preset, what differs from it, what is done in the window, the scene time in r_s/c, and the window's size."""
 
     preset: str
     changes: Mapping[str, Any]
     done: Callable[[Window], Steps]
     time: float = 30.0
+    size: tuple[int, int] = SIZE
+
+
+def _start(app: Window) -> Steps:
+    """As it opens."""
+    app.state.show_panel = True
+    yield lambda: app.picture.is_final and app.picture.samples > 1
+    app.start_line.begin(app.state.scene)
+    yield lambda: True
 
 
 def _path_view(app: Window) -> Steps:
@@ -66,6 +76,7 @@ def _side_by_side(app: Window) -> Steps:
 
 
 SHOTS = {
+    "window": WindowShot("kerr", {}, _start, size=WITH_PANEL),
     "path_view": WindowShot("schwarzschild", {**_EULER, "rays.step_control": "fixed", "rays.step_length": 2.0, "camera.distance": 5.0}, _path_view),
     "side_by_side": WindowShot("kerr", {**_EULER, "rays.step_control": "radius", "rays.step_length": 0.5}, _side_by_side),
 }
@@ -102,7 +113,7 @@ def take(shot: WindowShot, path: Path) -> None:
     """Writes the window of `shot` to `path`."""
     with tempfile.TemporaryDirectory() as folder:
         scene = presets.load([shot.preset], dict(shot.changes))
-        window.run(scene, null_platform=True, size=SIZE, picture_folder=Path(folder), driver=_User(shot))
+        window.run(scene, preset_names=[shot.preset], null_platform=True, size=shot.size, picture_folder=Path(folder), driver=_User(shot))
     Image.fromarray(np.asarray(hello_imgui.final_app_window_screenshot())[..., :3]).save(path)
 
 

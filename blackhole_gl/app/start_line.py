@@ -21,8 +21,12 @@ class StartLine:
     """
 
     def __init__(self, scene: Scene, help_key: str):
-        self._camera = scene.camera
         self._parts = (*_PARTS, f"{help_key}: all keys") if help_key else _PARTS
+        self.begin(scene)
+
+    def begin(self, scene: Scene) -> None:
+        """Shows the line from the next frame on, over the picture of `scene`."""
+        self._camera = scene.camera
         self._leaves: float | None = None
         self._now = 0.0
 

@@ -149,7 +149,7 @@ class Window:
         self._mouse = Mouse()
         self._panel_width = PanelWidth(self.kept.first_panel_em)
         self._gesture = Gesture()
-        self._start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
+        self.start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
         self._search = SearchWindow()
         self.dialog = FileDialog()
         self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
@@ -208,7 +208,7 @@ class Window:
         imgui.get_style().font_scale_main = self.kept.text_size
         runner.work_panel_by_keys(self.state.panel_keys)
         measuring = self.live_chart.busy(self.state) or self.path_view.busy or self.picture_window.busy or self.side_by_side.busy(self.state)
-        busy = self.state.is_moving or self._start_line.fades or measuring or self._has_more_to_draw()
+        busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
@@ -236,7 +236,7 @@ class Window:
         view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         if self.kept.start_line:
-            self._start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
+            self.start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
         self._search.draw(state, lambda: search_window.entries(state, self._panel.shown_fields(state.scene), self.bindings, self.do))
         self.dialog.poll()
         self.picture_window.draw(state)

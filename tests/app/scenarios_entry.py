@@ -65,8 +65,8 @@ def time_is_shown_and_set(hands: Hands) -> None:
 
 
 def line_at_start_is_in_no_picture(hands: Hands) -> None:
-    line = hands.window._start_line
-    line.__init__(hands.scene, "F1")
+    line = hands.window.start_line
+    line.begin(hands.scene)
     hands.context.yield_(2)
     assert line.advance(hands.scene, imgui.get_time()) == 1.0, "it is over the picture now"
     pixels = np.asarray(Image.open(save_picture(hands)))
