@@ -15,6 +15,7 @@ import tomlkit
 from ..output.files import write_whole
 from ..resources import user_config_dir
 from ..scene import Scene, presets
+from ..text_files import read_text
 from .state import WindowState
 
 _FILE = "window.toml"
@@ -73,7 +74,7 @@ def load() -> tuple[Kept, str]:
     """
     path = file()
     try:
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(read_text(path))
     except FileNotFoundError:
         return Kept(), ""
     except (OSError, ValueError) as error:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -183,13 +185,19 @@ def arguments_of(line: str) -> list[str]:
     return cli._with_command(shlex.split(line)[1:])
 
 
-# `check` and `bench` look at the machine for long, and have tests of their own; the others draw, or name what the reader has.
 QUICK_COMMANDS = ("render", "trace", "plan", "presets", "--version")
-QUICK = [line for line in LINES if line not in ONLY_NAMED and arguments_of(line)[0] in QUICK_COMMANDS and "NAME" not in line]
+LONG_COMMANDS = ("view", "bench", "check")
+RUN = [line for line in LINES if line not in ONLY_NAMED and "NAME" not in line]
+QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
+# Those about kinds of the reader's are run by tests/shaders/test_extending.py.
+LONG = [line for line in RUN if arguments_of(line)[0] in LONG_COMMANDS and not re.search("graticule|moon|haze", line)]
+LOCALES = ("utf-8", "cp1252", "C")
+SAMPLE = (("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl check", "C"))
 
 
 def test_the_documents_have_command_lines() -> None:
     assert len(LINES) > 20 and {arguments_of(line)[0] for line in QUICK} == set(QUICK_COMMANDS)
+    assert {arguments_of(line)[0] for line in LONG} == set(LONG_COMMANDS) and {line for line, _ in SAMPLE} < set(LONG)
 
 
 @pytest.mark.parametrize("line", [line for line in LINES if line not in ONLY_NAMED])
@@ -201,7 +209,7 @@ def test_every_command_line_of_the_documents_is_understood(line: str) -> None:
         command.commands[name].make_context(name, rest)
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "cp1252", "C"])
+@pytest.mark.parametrize("encoding", LOCALES)
 @pytest.mark.parametrize("line", QUICK)
 def test_command_lines_that_open_no_window_run_as_they_are(tmp_path: Path, line: str, encoding: str) -> None:
     """But for the size of pictures, which are drawn small."""
@@ -213,3 +221,38 @@ def test_command_lines_that_open_no_window_run_as_they_are(tmp_path: Path, line:
         arguments += ["--size", "32x18"]
     done = run(tmp_path, *arguments, **ENCODINGS[encoding])
     assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
+
+
+@pytest.fixture(scope="module")
+def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A picture that we have saved."""
+    folder = tmp_path_factory.mktemp("picture")
+    assert run(folder, "render", "m87_like", *SMALL, "-o", "x.png").returncode == 0
+    return folder / "x.png"
+
+
+@pytest.mark.parametrize(
+    "line, encoding", [pytest.param(*case, marks=() if case in SAMPLE else pytest.mark.slow) for case in itertools.product(LONG, LOCALES)]
+)
+def test_long_command_lines_run_too(tmp_path: Path, picture: Path, line: str, encoding: str) -> None:
+    """Views where there is no display, so that they write a picture; timings of small ones, once each."""
+    for name in re.findall(r"\S+\.png", line):
+        shutil.copy(picture, tmp_path / name)
+    arguments = ["bench", "--size", "32x18", "--rounds", "1", "--no-euler"] if arguments_of(line)[0] == "bench" else shlex.split(line)[1:]
+    done = run(tmp_path, *arguments, **ENCODINGS[encoding])
+    assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
+
+
+def test_what_make_and_python_are_asked_for_in_the_documents_is_there() -> None:
+    targets = re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
+    asked = set()
+    for page in (*PAGES, ROOT / "CONTRIBUTING.md"):
+        text = page.read_text(encoding="utf-8")
+        asked |= set(re.findall(r"(?:`|^ {4}|^)(?:[A-Z_]+=\S+ )*(make|python)( -m)? ([a-z][\w./-]*)", text, re.MULTILINE))
+    assert len(asked) > 10
+    for program, module, what in sorted(asked):
+        if program == "make":
+            assert what in targets, f"make {what}"
+        else:
+            place = ROOT / (what.replace(".", "/") if module else what)
+            assert place.is_file() or place.with_suffix(".py").is_file() or (place / "__main__.py").is_file(), what
