@@ -8,6 +8,8 @@
 #include "common/disk_edge.glsl"
 #include "common/edge_marks.glsl"
 
+uniform bool disk_hides; // whether the direct picture hides the first ring's edges well enough
+
 out vec2 mark;
 
 // Where a crossing lies: 0 outside the disk's outer edge, or nowhere, 1 on the disk, 2 inside its inner edge. Between 0 and 2 lies a disk too thin to be met.
@@ -22,7 +24,7 @@ void main() {
     seen |= zone(hits.crossing[1]) * RING_1 | zone(hits.crossing[2]) * RING_2;
 #endif
 #if ORDERS > 0 && DISK_COMPOSITING_OPACITY
-    seen |= on_disk(hits.crossing[0]) && disk_opacity > VEIL ? VEILED : 0;
+    seen |= disk_hides && on_disk(hits.crossing[0]) ? VEILED : 0;
 #endif
     int met = 0;
 #if MEETINGS

@@ -45,11 +45,10 @@ def most_accurate(drawn: Plan) -> Plan:
 
 
 class ViewPass:
-    """Draws shaders/views/*.frag and owns their colour scales."""
+    """Draws shaders/views/*.frag and owns their colour scales; `temperatures` stay their owner's."""
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
-        self._ctx, self._programs = ctx, programs
-        self._temperatures = TemperatureProfile(ctx)
+    def __init__(self, ctx: moderngl.Context, programs: Programs, temperatures: TemperatureProfile):
+        self._ctx, self._programs, self._temperatures = ctx, programs, temperatures
         self._scales: dict[bool, moderngl.Texture] = {}
         self._steps: Ends | None = None
 
@@ -98,7 +97,6 @@ class ViewPass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        self._temperatures.release()
         for texture in self._scales.values():
             texture.release()
         self._scales = {}

@@ -10,10 +10,13 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
+from ..scene import Scene
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .target import Target
+
+_VEIL = 0.5
 
 _OWN_RAYS = PixelClass.OWN_RAY.depth_beyond
 
@@ -49,6 +52,11 @@ class _Made:
         self.edges.release()
 
 
+def hides(scene: Scene) -> bool:
+    """Whether the direct picture of the disk hides what is behind it well enough for the first ring's edges not to be seen."""
+    return scene.disk.opacity > _VEIL
+
+
 class EdgePixels:
     """Finds them."""
 
@@ -61,6 +69,8 @@ class EdgePixels:
         made = self._targets(inputs.size, hit_map)
         marks = self._programs.get("edge_marks.frag", inputs)
         marks.sample(hit_map.samplers())
+        if "disk_hides" in marks.program:
+            marks.set(disk_hides=hides(inputs.plan.scene))
         self._draw(marks, made.marks, made.classes, 1.0)
         edges = self._programs.get("edge_pixels.frag", inputs)
         edges.sample({"marks": made.marks.texture})

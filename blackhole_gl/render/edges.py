@@ -8,12 +8,14 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .edge_pixels import EdgePixels, drawn_nearer
+from .edge_pixels import EdgePixels, drawn_nearer, hides
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
 from .programs import Programs
 from .shading import Box, ShadePass
+from .tables import Tables
 from .target import Target
+from .temperatures import TemperatureProfile
 
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
 _BLOCKS_IN_A_ROW, _ROWS = 128, 4
@@ -28,15 +30,18 @@ _EDGE, _OTHER, _BETWEEN = 0.25, 0.75, 0.5
 class EdgeRays:
     """The pixels at edges, their rays and what these show.
 
+    Args:
+        tables, temperatures: what rays are traced and shaded with; they stay their owner's.
+
     Attributes:
         pixels: column and row of each pixel with several rays, from the bottom left, int (N, 2).
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self._ctx, self._programs = ctx, programs
         self._find = EdgePixels(ctx, programs)
-        self._map = HitMap(ctx, programs)
-        self._shade = ShadePass(ctx, programs)
+        self._map = HitMap(ctx, programs, tables)
+        self._shade = ShadePass(ctx, programs, tables, temperatures)
         self._places: _Places | None = None
         self._texture: moderngl.Texture | None = None
         self._blocks: RayBlocks | None = None
@@ -47,7 +52,8 @@ class EdgeRays:
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target) -> None:
         """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`."""
         side = _side(inputs.plan.scene.rays.edges, hit_map.is_sharp)
-        key = (hit_map.generation, side, inputs.size, inputs.plan.orders, inputs.plan.disk_inner, inputs.plan.disk_outer)
+        plan = inputs.plan
+        key = (hit_map.generation, side, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
             self._trace(inputs, hit_map, side)
             self._key = key

@@ -21,7 +21,9 @@ from .metering import Exposure
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
+from .tables import Tables
 from .target import Target
+from .temperatures import TemperatureProfile
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
@@ -73,14 +75,15 @@ class Renderer:
     def __init__(self, ctx: moderngl.Context):
         self.ctx = ctx
         self.programs = Programs(ctx)
-        self.hit_map = HitMap(ctx, self.programs)
-        self.reference_map = HitMap(ctx, self.programs)
-        self._sample_map = HitMap(ctx, self.programs)
+        self._tables, self._reference_tables, self._temperatures = Tables(ctx), Tables(ctx), TemperatureProfile(ctx)
+        self.hit_map = HitMap(ctx, self.programs, self._tables)
+        self.reference_map = HitMap(ctx, self.programs, self._reference_tables)
+        self._sample_map = HitMap(ctx, self.programs, self._tables)
         self._mean = supersampling.Mean(ctx)
-        self._shade = ShadePass(ctx, self.programs)
-        self.edges = EdgeRays(ctx, self.programs)
-        self._views = diagnostics.ViewPass(ctx, self.programs)
-        self.exposure = Exposure(ctx, self.programs)
+        self._shade = ShadePass(ctx, self.programs, self._tables, self._temperatures)
+        self.edges = EdgeRays(ctx, self.programs, self._tables, self._temperatures)
+        self._views = diagnostics.ViewPass(ctx, self.programs, self._temperatures)
+        self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
         self._post = PostPass(ctx, self.programs)
         self._radiance: Target | None = None
         self._picture: Target | None = None
@@ -262,6 +265,8 @@ class Renderer:
         self.exposure.release()
         self._shade.release()
         self._post.release()
+        for tables in (self._tables, self._reference_tables, self._temperatures):
+            tables.release()
         for target in (self._radiance, self._picture):
             if target is not None:
                 target.release()

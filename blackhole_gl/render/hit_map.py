@@ -59,22 +59,23 @@ _IN_BLOCKS = {"RAYS_IN_BLOCKS": 1}
 class HitMap:
     """The targets of the trace pass.
 
+    Args:
+        tables: what rays are traced with; they stay their owner's.
+
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
-        tables: what rays are traced with.
         instances: the things and media that they may meet.
         traces: how many times rays have been traced, for tests and the overlay.
         generation: of what the map holds: a number that no other trace of this process has had.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
-        self._ctx, self._programs = ctx, programs
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables):
+        self._ctx, self._programs, self.tables = ctx, programs, tables
         self.textures: list[moderngl.Texture] = []
         self.traces = 0
         self.generation = 0
         self.sharpened = False
-        self.tables = Tables(ctx)
         self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
@@ -293,7 +294,6 @@ class HitMap:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        self.tables.release()
         self.instances.release()
         self._grid.release()
         self._release_targets()

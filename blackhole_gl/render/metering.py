@@ -15,7 +15,9 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
 from .shading import ShadePass
+from .tables import Tables
 from .target import Target
+from .temperatures import TemperatureProfile
 
 SIZE = (72, 54)
 """Width and height in pixels of the picture that is metered."""
@@ -41,16 +43,19 @@ _MARGIN = 1.1  # of the view over what it is to hold
 class Exposure:
     """Plans with their exposure made up.
 
+    Args:
+        tables, temperatures: what the metered picture is drawn with; they stay their owner's.
+
     Attributes:
         adaptation: metered stops → those that the next frame shows. In a window exposure follows; else it is there at once.
         stops: what the last plan got; 0 where exposure is fixed.
         settled: whether the next frame of the same would get no other.
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self.adaptation: Callable[[float], float] = _at_once
         self.stops, self.settled = 0.0, True
-        self._meter = Meter(ctx, programs)
+        self._meter = Meter(ctx, programs, tables, temperatures)
         self._made: tuple[Plan, float, Plan] | None = None
 
     def of(self, plan: Plan, *, patient: bool = False, at_once: bool = False) -> Plan:
@@ -93,11 +98,11 @@ class Meter:
         is_current: whether the last answer was metered for its own view.
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self._ctx = ctx
         self.is_current = True
-        self._hit_map = HitMap(ctx, programs)
-        self._shade = ShadePass(ctx, programs)
+        self._hit_map = HitMap(ctx, programs, tables)
+        self._shade = ShadePass(ctx, programs, tables, temperatures)
         self._target: Target | None = None
         self._view: Plan | None = None  # what was metered last
         self._bright = 0.0  # its bright parts, in stops above radiance 1

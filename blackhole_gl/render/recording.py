@@ -20,6 +20,7 @@ from .hit_map import HitMap
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
+from .tables import Tables
 from .target import Target
 
 Array = np.ndarray
@@ -92,7 +93,8 @@ class Recorder:
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
-        self._hits = HitMap(ctx, programs)
+        self._tables = Tables(ctx)
+        self._hits = HitMap(ctx, programs, self._tables)
 
     def record(self, scene: Scene, local: Float[Array, " 3"]) -> RayPath:
         """The way of the ray that the camera of `scene` has in the direction `local` of the view's frame (`pixel_direction`).
@@ -112,6 +114,7 @@ class Recorder:
     def release(self) -> None:
         """Gives the GL objects back."""
         self._hits.release()
+        self._tables.release()
 
     def _marched(self, plan: Plan, local: Array, steps: int) -> _Points:
         stride = -(-steps // _MOST_STEPS)
@@ -143,7 +146,7 @@ class Recorder:
         source = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
         target = Target.of(self._ctx, [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(2)])
         draw = self._programs.get("record.frag", FrameInputs.whole(plan, 0.0, (width, height)))
-        self._hits.tables.bind(draw, chosen(plan, *RAY_SLOTS))
+        self._tables.bind(draw, chosen(plan, *RAY_SLOTS))
         draw.set(listed_rays=0)
         source.use(0)
         target.frame.use()

@@ -37,18 +37,19 @@ class _Classes:
 
 
 class ShadePass:
-    """Draws shaders/shade_*.frag and owns the tables they read.
+    """Draws shaders/shade_*.frag.
 
     First every pixel is sorted by what it needs, into a depth buffer; then the depth test lets the disk's and the sky's
     shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are, and from its second frame on the
     disk is drawn within its bounds alone; a refined hit map brings a sorting of its own (shaders/refine_classes.frag).
 
+    Args:
+        tables, temperatures: what those shaders read; they stay their owner's.
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self._ctx, self._programs = ctx, programs
-        self._tables = Tables(ctx)
-        self._temperatures = TemperatureProfile(ctx)
+        self._tables, self._temperatures = tables, temperatures
         self._classes: _Classes | None = None
         self._classes_key: tuple | None = None
         self._disk_box: Box | None = None  # not known before the second frame of the same classes
@@ -115,8 +116,6 @@ class ShadePass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        self._tables.release()
-        self._temperatures.release()
         self._release_classes()
 
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:

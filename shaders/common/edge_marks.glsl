@@ -4,5 +4,3 @@ const int RING_1 = 4;     // two bits
 const int RING_2 = 16;    // two bits, of which the first is the disk's
 const int VEILED = 64;
 const int NO_RAY = 255;
-
-const float VEIL = 0.5;   // opacity from which on the direct picture of the disk hides the first ring's edges well enough

@@ -83,7 +83,7 @@ def test_a_missing_include_is_reported_where_it_is_asked_for(ctx: moderngl.Conte
 def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Context, copy: Path) -> None:
     renderer = Renderer(ctx)
     renderer.programs = Programs(ctx, copy)
-    renderer.hit_map = HitMap(ctx, renderer.programs)
+    renderer.hit_map = HitMap(ctx, renderer.programs, renderer.hit_map.tables)
     renderer.render(SCENE, 0.0, (16, 9))
     assert np.any(renderer.hits().fate == 1)
     edit(copy / "common" / "radial_mino.glsl", "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return CAPTURED;")

@@ -177,10 +177,17 @@ def test_refinement_that_was_not_measured_is_not_made_up(stored, values):
     assert choice.refinement(choice.choose(KERR.with_values(values)).scene) is None
 
 
-def test_tables_without_refinement_are_read_as_such():
-    marched = {name: value for name, value in asdict(MARCHED).items() if name not in ("refined", "cost_unrefined")}
-    old = {name: "" if value != value else str(value) for name, value in marched.items()}
-    assert repr(measured.from_texts(old)) == repr(MARCHED)
-    assert repr(measured.from_texts(old | {"refined": "0", "cost_unrefined": ""})) == repr(MARCHED)
-    new = measured.from_texts(old | {"refined": "1", "cost_unrefined": "10"})
+def test_tables_without_refinement_are_read_as_such(tmp_path):
+    def read_back(row, columns=measured.COLUMNS):
+        values = asdict(row)
+        texts = ("" if values[name] != values[name] else str(values[name]) for name in columns)
+        path = tmp_path / "table.csv"
+        path.write_text("# measured somewhere\n" + ",".join(columns) + "\n" + ",".join(texts) + "\n", encoding="utf-8")
+        (found,) = measured.read(path)
+        return found
+
+    old = [name for name in measured.COLUMNS if name not in ("refined", "cost_unrefined")]
+    assert repr(read_back(MARCHED, old)) == repr(MARCHED)
+    assert repr(read_back(MARCHED)) == repr(MARCHED)
+    new = read_back(replace(MARCHED, refined=1, cost_unrefined=10.0))
     assert new.refined and new.cost_unrefined == 10.0 and new.stated == MARCHED.stated
