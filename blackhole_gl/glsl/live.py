@@ -7,6 +7,7 @@ import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 _CONDITIONAL = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b\s*(.*)$")
 _DEFINE = re.compile(r"^\s*#\s*define\s+(\w+)[ \t]*(\S*)")
@@ -93,10 +94,14 @@ def _follow(branches: list[_Branch], word: str, condition: str, known: Mapping[s
 def _truth(condition: str, known: Mapping[str, str]) -> bool | None:
     """Whether a condition holds; None where that cannot be said."""
     text = _DEFINED.sub(lambda match: str(int(match[1] in known)), condition)
-    text = _NAME.sub(lambda match: known.get(match[0], "0"), text)
-    text = re.sub(r"!(?!=)", " not ", text.replace("&&", " and ").replace("||", " or "))
+    return _value(_NAME.sub(lambda match: known.get(match[0], "0"), text))
+
+
+@lru_cache(maxsize=256)
+def _value(text: str) -> bool | None:
+    """Whether an expression of numbers is other than 0; None where it is no such expression."""
     try:
-        parsed = ast.parse(text.strip(), mode="eval")
+        parsed = ast.parse(re.sub(r"!(?!=)", " not ", text.replace("&&", " and ").replace("||", " or ")).strip(), mode="eval")
         arithmetic = all(isinstance(node, _ARITHMETIC) for node in ast.walk(parsed))
         return bool(eval(compile(parsed, "", "eval"))) if arithmetic else None
     except (SyntaxError, ArithmeticError):

@@ -47,7 +47,7 @@ def encode(pixels: np.ndarray, scene_text: str = "") -> bytes:
     if scene_text:
         chunks.add_itxt(KEYWORD, scene_text)
     stream = io.BytesIO()
-    Image.fromarray(pixels).save(stream, format="PNG", pnginfo=chunks, compress_level=6)
+    Image.fromarray(pixels).save(stream, format="PNG", pnginfo=chunks, compress_level=4)
     return stream.getvalue()
 
 
