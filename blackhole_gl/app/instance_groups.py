@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from ..scene import Scene, catalogue, instances
 from ..scene.catalogue import KIND, PlugIn
 from ..scene.schema import Field
-from . import text_fields
+from . import sought, text_fields
 from .state import WindowState
 
 _TITLES = {"things": "Things", "media": "Media"}
@@ -55,6 +55,7 @@ class InstanceGroups:
         if forced_open or place.path in self._to_open:
             imgui.set_next_item_open(True)
             self._to_open.discard(place.path)
+        sought.open_group(state, [item.key for item in items])
         if not imgui.collapsing_header(f"{place.name}: {kind.label.lower()}###{place.path}"):
             return
         table(f"values of {place.path}", items)

@@ -10,7 +10,7 @@ from functools import cache
 from imgui_bundle import ImVec4, hello_imgui, imgui
 
 from .. import plan
-from ..scene import Scene, catalogue, fields, presets, sections
+from ..scene import Scene, catalogue, fields, instances, presets, sections
 from ..scene.schema import Field
 from . import commands, scene_files, sought, theme, widgets
 from .camera_control import range_in
@@ -59,7 +59,8 @@ class Panel:
 
     def shown_fields(self, scene: Scene) -> list[Field]:
         """The fields that `scene` has rows for, whatever the filter."""
-        return [item for items in _sections().values() for item in items if _is_active(item, scene)]
+        own = [item for items in _sections().values() for item in items if _is_active(item, scene)]
+        return [*own, *(item for key, item in scene.fields().items() if instances.place_of(key) is not None)]
 
     def clear_filter(self) -> None:
         """Has every row shown."""

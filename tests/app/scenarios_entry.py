@@ -92,6 +92,21 @@ def search_opens_a_group_and_marks_the_row(hands: Hands) -> None:
     assert hands.state.sought.until is not None, "and marked it"
 
 
+def search_finds_values_of_things(hands: Hands) -> None:
+    hands.state.change({"things.ring.kind": "annulus"})
+    hands.context.yield_(2)
+    key = next(key for key in hands.scene.fields() if key.startswith("things.ring.") and key.endswith("radius"))
+    press_bar(hands, "search")
+    hands.context.key_chars(key)
+    hands.context.yield_(2)
+    hands.context.key_press(Key.enter)
+    hands.context.yield_(4)
+    row = hands.context.item_info(f"//{PANEL}/values of things.ring/##{key}")
+    panel = imgui.internal.find_window_by_name(PANEL)
+    assert panel.inner_clip_rect.min.y <= row.rect_full.min.y and row.rect_full.max.y <= panel.inner_clip_rect.max.y
+    assert hands.state.sought.key == key and hands.state.sought.until is not None
+
+
 def search_runs_commands_presets_and_views(hands: Hands) -> None:
     for text, has_come in (
         ("save the scene", lambda: hands.state.notice is not None),
