@@ -11,6 +11,8 @@ synchronisation no frame is shorter than the screen's.
 from __future__ import annotations
 
 import argparse
+import os
+import tempfile
 import time as clock
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field, replace
@@ -133,7 +135,9 @@ def main() -> None:
     conduct(Conductor(runs, given.seconds, given.settle))
     print(f"| {given.size} | fps aimed at | frames | median ms | 95 % ms | longest ms | fps | scale | from, to | changes |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
-    window.run(presets.load(given.preset or ["kerr"]), null_platform=given.no_display, size=size)
+    with tempfile.TemporaryDirectory() as folder:  # what the user's window keeps, a wider panel say, would change the picture's size
+        os.environ["BLACKHOLE_GL_CONFIG_DIR"] = folder
+        window.run(presets.load(given.preset or ["kerr"]), null_platform=given.no_display, size=size)
 
 
 if __name__ == "__main__":

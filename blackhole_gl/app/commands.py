@@ -141,7 +141,9 @@ def reset_all(state: WindowState) -> None:
 def work_panel_by_keys(state: WindowState) -> None:
     """Gives the arrows, TAB, SPACE and ENTER to the panel, or takes them back."""
     state.panel_keys = not state.panel_keys
-    state.show_panel |= state.panel_keys
+    if state.panel_keys:
+        state.show_panel = True
+        state.say("Keys work the panel: arrows and TAB go, SPACE and ENTER take, ESC leaves.")
 
 
 def flip(name: str) -> Callable[[WindowState], None]:

@@ -241,7 +241,7 @@ def panel_by_keys_alone(hands: Hands) -> None:
     before = hands.scene
     hands.press(Key.f6)
     hands.context.yield_(3)
-    assert hands.state.panel_keys
+    assert hands.state.panel_keys and "ESC leaves" in hands.state.notice.text
     goes_to(hands, f"//{PANEL}/values of disk/##disk.enabled")
     hands.context.key_press(Key.space)
     hands.context.yield_(2)
