@@ -145,7 +145,9 @@ def _of_kind(place: Place, given: Any, old: Instance | None) -> Instance:
     values = {name: item.default for name, item in kinds[given].parameters.items()}
     if old is not None:
         kept = {name: value for name, value in old.values.items() if name in values and _takes(kinds[given].parameters[name], value)}
-        values = values if _disorder(place.section, given, values | kept) else values | kept
+        while wrong := {name for pair in _disorder(place.section, given, values | kept) for name in pair} & kept.keys():
+            kept = {name: value for name, value in kept.items() if name not in wrong}
+        values |= kept
     return Instance(given, FrozenMap(values))
 
 
