@@ -192,12 +192,17 @@ QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
 # Those about kinds of the reader's are run by tests/shaders/test_extending.py.
 LONG = [line for line in RUN if arguments_of(line)[0] in LONG_COMMANDS and not re.search("graticule|moon|haze", line)]
 LOCALES = ("utf-8", "cp1252", "C")
-SAMPLE = (("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl check", "C"))
+# Run each time: the others are slow tests.
+SAMPLE = {("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl check", "C"), *zip(QUICK, itertools.cycle(LOCALES))}
+
+
+def in_all_locales(lines: list[str]) -> list:
+    return [pytest.param(*case, marks=() if case in SAMPLE else pytest.mark.slow) for case in itertools.product(lines, LOCALES)]
 
 
 def test_the_documents_have_command_lines() -> None:
     assert len(LINES) > 20 and {arguments_of(line)[0] for line in QUICK} == set(QUICK_COMMANDS)
-    assert {arguments_of(line)[0] for line in LONG} == set(LONG_COMMANDS) and {line for line, _ in SAMPLE} < set(LONG)
+    assert {arguments_of(line)[0] for line in LONG} == set(LONG_COMMANDS) and {line for line, _ in SAMPLE} <= {*LONG, *QUICK}
 
 
 @pytest.mark.parametrize("line", [line for line in LINES if line not in ONLY_NAMED])
@@ -209,8 +214,7 @@ def test_every_command_line_of_the_documents_is_understood(line: str) -> None:
         command.commands[name].make_context(name, rest)
 
 
-@pytest.mark.parametrize("encoding", LOCALES)
-@pytest.mark.parametrize("line", QUICK)
+@pytest.mark.parametrize("line, encoding", in_all_locales(QUICK))
 def test_command_lines_that_open_no_window_run_as_they_are(tmp_path: Path, line: str, encoding: str) -> None:
     """But for the size of pictures, which are drawn small."""
     (tmp_path / "rays.csv").write_text("psi,chi\n0.5,1\n")
@@ -231,9 +235,7 @@ def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "x.png"
 
 
-@pytest.mark.parametrize(
-    "line, encoding", [pytest.param(*case, marks=() if case in SAMPLE else pytest.mark.slow) for case in itertools.product(LONG, LOCALES)]
-)
+@pytest.mark.parametrize("line, encoding", in_all_locales(LONG))
 def test_long_command_lines_run_too(tmp_path: Path, picture: Path, line: str, encoding: str) -> None:
     """Views where there is no display, so that they write a picture; timings of small ones, once each."""
     for name in re.findall(r"\S+\.png", line):

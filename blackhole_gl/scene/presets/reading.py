@@ -159,7 +159,7 @@ class _Reader:
         elif key in tables():
             raise self._error(key, f"got {describe(value)}; allowed is a table, [{key}]")
         else:
-            self._skip(key, _hint(key))
+            self._skip(key, nearest(key, _all_keys()))
 
     def _put(self, item: Field, value: Any) -> None:
         try:
@@ -213,7 +213,8 @@ def unknown_key(key: str) -> str:
         return f"it holds any number of named {key}; allowed is {key}.NAME.kind=KIND, which makes one (kinds: {kinds}), then {key}.NAME.PARAMETER=VALUE"
     if key in tables():
         return f"it is a table and has no value of its own; allowed here are {', '.join(known for known in fields() if known.startswith(key + '.'))}"
-    hint, section = _hint(key) or ".", key.split(".")[0]
+    near, section = nearest_key(key, _all_keys()), key.split(".")[0]
+    hint = f"; did you mean {near}?" if near else "."
     if section in tables():
         allowed = [known for known in fields() if known.startswith(section + ".")]
     else:
@@ -222,9 +223,8 @@ def unknown_key(key: str) -> str:
     return f"no such key{hint} Allowed here are {', '.join(allowed)}"
 
 
-def _hint(key: str) -> str:
-    near = nearest_key(key, [*fields(), *tables(), *instances.SLOTS])
-    return f"; did you mean {near}?" if near else ""
+def _all_keys() -> tuple[str, ...]:
+    return (*fields(), *tables(), *instances.SLOTS)
 
 
 @cache
