@@ -335,10 +335,12 @@ def _renderer(backend: str):
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
     from .output import png
     from .plan import plan as make_plan
+    from .render.annotation import annotated
 
     for warning in make_plan(scene).warnings:
         print(f"blackhole-gl: {warning}", file=sys.stderr)
     renderer = _renderer(backend)
     with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)
-    png.write(out, renderer.read_rgb8(), preset_files.picture_text(scene, time, out.absolute().parent))
+    pixels = annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
+    png.write(out, pixels, preset_files.picture_text(scene, time, out.absolute().parent))

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from blackhole_gl.render.annotation import annotated
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
@@ -48,6 +49,7 @@ SHOTS = (
     Shot("gargantua_as_filmed", ("gargantua_as_filmed",)),
     Shot("luminet_1979", ("luminet_1979",)),
     Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
+    Shot("labels", ("kerr",), {"post.labels": True}),
 )
 
 
@@ -64,8 +66,9 @@ def render(shots: list[Shot]) -> None:
     """Makes pictures without a window."""
     renderer = Renderer(create_headless())
     for shot in shots:
-        renderer.render_still(presets.load([*shot.presets, "high"], dict(shot.changes)), shot.time, SIZE, SAMPLES)
-        keep(Image.fromarray(renderer.read_rgb8()), shot.name)
+        scene = presets.load([*shot.presets, "fine"], dict(shot.changes))
+        renderer.render_still(scene, shot.time, SIZE, SAMPLES)
+        keep(Image.fromarray(annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))), shot.name)
 
 
 def photograph(name: str) -> None:

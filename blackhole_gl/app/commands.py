@@ -110,6 +110,11 @@ def next_view(state: WindowState) -> None:
     state.change({"post.view": views[(views.index(state.scene.post.view) + 1) % len(views)]})
 
 
+def toggle_labels(state: WindowState) -> None:
+    """Names and outlines in the picture or none."""
+    state.change({"post.labels": not state.scene.post.labels})
+
+
 def toggle_pause(state: WindowState) -> None:
     """Stops scene time or lets it run."""
     state.paused = not state.paused
@@ -171,6 +176,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "picture": flip("picture_wanted"),
     "full_screen": flip("full_screen"),
     "view": next_view,
+    "labels": toggle_labels,
     "panel": flip("show_panel"),
     "overlay": flip("show_overlay"),
     "chart": flip("show_chart"),

@@ -78,6 +78,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("picture_window", ("SHIFT+F12",), "Save a picture of any size, with any number of rays a pixel"),
     Action("full_screen", ("F11",), "Full screen"),
     Action("view", ("V",), "Next view: picture, steps, orders, g-factor, temperature, difference, conservation, unresolved"),
+    Action("labels", ("L",), "Show or hide labels: shadow, rings, innermost stable orbit, sides"),
     Action("panel", ("TAB",), "Show or hide panel and bar"),
     Action("panel_keys", ("F6",), "Panel by keys: arrows and TAB go, SPACE and ENTER take, ESC leaves"),
     Action("overlay", ("O",), "Show or hide figures and compass"),

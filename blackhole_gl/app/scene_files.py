@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ..output import png
+from ..render.annotation import annotated
+from ..render.views import View
 from ..scene import Scene, presets
 from . import preset_switch
 from .state import WindowState
@@ -97,11 +99,12 @@ def _open(state: WindowState, scene: Scene, preset: presets.Preset) -> None:
     state.play_from(preset)
 
 
-def save_picture(state: WindowState, pixels: np.ndarray, folder: Path) -> None:
-    """Writes `pixels` ((height, width, 3) uint8, top row first) with the scene inside to a new file in `folder`."""
+def save_picture(state: WindowState, pixels: np.ndarray, view: View | None, folder: Path) -> None:
+    """Writes `pixels` ((height, width, 3) uint8, top row first), which show the diagnostic `view` if there is one, with the scene inside to a new file in
+    `folder`; labels and the view's scale are drawn in as the scene asks."""
     path = new_picture(folder)
     try:
-        png.write(path, pixels, presets.picture_text(state.scene, state.time, folder.absolute(), paused=state.paused))
+        png.write(path, annotated(pixels, state.scene, view), presets.picture_text(state.scene, state.time, folder.absolute(), paused=state.paused))
     except OSError as error:
         state.complain(f"{path}: cannot be written: {error.strerror or error}")
         return

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render.views import Colour, Scale, View
+from ..render.views import Colour, Scale, View, tick_text
 from . import overlay, theme
 
 _PIECES = 96
@@ -30,12 +30,6 @@ def draw(view: View | None, corner: overlay.Corner, width: float) -> None:
     for meaning, colour in view.legend:
         _legend_row(meaning, colour, em)
     imgui.end()
-
-
-def tick_text(scale: Scale, index: int) -> str:
-    """The number at tick `index`, the last one with its unit."""
-    text = f"{scale.ticks[index]:g}".replace("e-0", "e-")
-    return f"{text} {scale.unit}" if scale.unit and index == len(scale.ticks) - 1 else text
 
 
 def bar(scale: Scale, length: float, em: float) -> None:

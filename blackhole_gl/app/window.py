@@ -17,7 +17,9 @@ import moderngl
 
 from ..resources import user_config_dir
 from ..scene import Scene, catalogue
-from . import bar, commands, file_commands, help_window, kept, keys, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings
+from . import (
+    bar, commands, file_commands, help_window, kept, keys, label_overlay, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings,
+)  # fmt: skip
 from .area import Area
 from .ending import Ending
 from .file_dialog import FileDialog
@@ -232,6 +234,7 @@ class Window:
         em = hello_imgui.em_size()
         overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
+        label_overlay.draw(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(state.scene)
         view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
@@ -350,7 +353,7 @@ class Window:
             self.picture.count_rays()
         wanted, state.picture_wanted = state.picture_wanted, False
         if wanted and not failed:
-            scene_files.save_picture(state, self.picture.read_rgb8(), self._picture_folder)
+            scene_files.save_picture(state, self.picture.read_rgb8(), self.picture.renderer.view_of(state.scene), self._picture_folder)
 
     def _is_editing(self) -> bool:
         """Whether a slider is being dragged: from its first change until the button is let go."""

@@ -146,6 +146,12 @@ def scale_of(view: str) -> Scale:
     return scale
 
 
+def tick_text(scale: Scale, index: int) -> str:
+    """The number at tick `index`, the last one with its unit."""
+    text = f"{scale.ticks[index]:g}".replace("e-0", "e-")
+    return f"{text} {scale.unit}" if scale.unit and index == len(scale.ticks) - 1 else text
+
+
 def has_mean(scene: Scene) -> bool:
     """Whether what `scene` asks for may be the mean of several rays through a pixel: the picture, or a view that has one."""
     view = view_of(scene)

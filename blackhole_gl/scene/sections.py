@@ -167,6 +167,12 @@ class Post:
         "The picture, or in false colours: steps of a ray, crossings of the disk, g-factor, temperature of the disk's light, displacement from the "
         "most accurate method, drift of conserved quantities, unresolved rays.",
     )
+    labels: bool = switch(
+        False,
+        "Names and outlines, where closed forms put them: shadow, innermost stable orbit, rings by order, approaching and receding side. Saved pictures have "
+        "them too; in the window they wait while the camera moves.",
+    )
+    legend: bool = switch(True, "Draw a view's colours and scale into saved pictures of it; the window always shows them.")
     exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light; on top of what automatic exposure finds.")
     exposure_mode: str = choice(
         "fixed", ("fixed", "automatic"),

@@ -22,6 +22,7 @@ from blackhole_gl.app import compass, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
+from blackhole_gl.render import labels
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -438,6 +439,34 @@ def real_picture(hands: Hands) -> None:
     hands.press(Key.space)
     without_disk = np.asarray(Image.open(save_picture(hands)))
     assert without_disk.mean() < 0.5 * with_disk.mean()
+
+
+def labels_by_key(hands: Hands) -> None:
+    """L names what the picture shows while the camera rests, and nothing is worked out while it moves."""
+    asked, of = [], labels.of
+    labels.of = lambda *given: asked.append(given[0]) or of(*given)
+    try:
+        hands.context.yield_(3)
+        assert not asked
+        hands.press(Key.l)
+        hands.context.yield_(3)
+        assert hands.scene.post.labels and asked[-1] is hands.scene
+        x, y = hands.to_picture()
+        hands.context.mouse_down(0)
+        hands.context.mouse_move_to_pos((x + 60, y))
+        asked.clear()
+        hands.context.yield_(3)
+        assert not asked
+        hands.context.mouse_up(0)
+        hands.settle()
+        hands.context.yield_(3)
+        assert asked[-1] is hands.scene
+        hands.press(Key.l)
+        asked.clear()
+        hands.context.yield_(3)
+        assert not asked and not hands.scene.post.labels
+    finally:
+        labels.of = of
 
 
 def save_picture(hands: Hands) -> Path:

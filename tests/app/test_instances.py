@@ -58,7 +58,7 @@ def test_files_pictures_and_the_clipboard_carry_instances(state: WindowState, tm
     text = scene_files.text_of(state)
     state.file = str(tmp_path / "mine.toml")
     scene_files.save(state)
-    scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), tmp_path)
+    scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), None, tmp_path)
     assert 'image = "painted.png"' in Path(state.file).read_text(encoding="utf-8")
     (saved,) = tmp_path.glob("blackhole-*.png")
     for again in (lambda: scene_files.load(state), lambda: scene_files.take(state, text)):

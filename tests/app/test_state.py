@@ -319,7 +319,7 @@ def test_scene_and_time_open_as_they_were(state, tmp_path, by):
     state.time, state.paused = 17.123456789012345, True
     as_it_was = state.scene, state.time, state.paused
     if by == "png":
-        scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), tmp_path)
+        scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), None, tmp_path)
         state.file = str(next(tmp_path.glob("*.png")))
     elif by == "toml":
         state.file = str(tmp_path / "a.toml")

@@ -231,7 +231,6 @@ def test_scales_run_from_dark_to_light_and_fold_at_one() -> None:
 
 @pytest.mark.parametrize("view", VIEWS)
 def test_ranges_stand_in_the_documents(view: str) -> None:
-    """A saved picture has no numbers on it."""
     page = (Path(__file__).resolve().parents[2] / "docs" / "architecture.md").read_text(encoding="utf-8")
     (row,) = [line for line in page.splitlines() if line.startswith(f"| `{view}` |")]
     scale, stated = view_of(scene_with(view)).scale, row.split("|")[3]

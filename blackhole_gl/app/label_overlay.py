@@ -1,0 +1,53 @@
+"""Draws the labels of `render.labels` over the window's picture."""
+
+from __future__ import annotations
+
+import math
+
+from imgui_bundle import hello_imgui, imgui
+
+from ..render import labels
+from ..render.annotation import pieces
+from ..render.views import Colour
+from . import theme
+from .overlay import Corner
+from .state import WindowState
+
+
+def draw(state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
+    """Draws the labels over the picture, whose top left is `corner`. None while the camera moves: closed forms take longer than a frame."""
+    if not state.scene.post.labels or state.camera_moves or size[1] < 1.0:
+        return
+    try:
+        shown = labels.of(state.scene, size[0] / size[1])
+    except ValueError:  # the picture fails for the same reason, which is told
+        return
+    canvas, em = imgui.get_background_draw_list(), hello_imgui.em_size()
+    canvas.push_clip_rect(corner, (corner[0] + size[0], corner[1] + size[1]))
+
+    def at(place: tuple[float, float]) -> Corner:
+        return corner[0] + size[1] * place[0], corner[1] + size[1] * place[1]
+
+    for curve in shown.curves:
+        for piece in pieces(curve.places):
+            canvas.add_polyline([imgui.ImVec2(*at((x, y))) for x, y in piece.tolist()], _code(curve.colour, 0.9), 0.09 * em, 0)
+    for name in shown.names:
+        canvas.add_line(at(name.at), at(name.place), _code(name.colour, 0.9), 0.06 * em)
+        _text(canvas, name.text, at(name.place), name.colour, 1.0 if name.is_on_the_left else 0.0, (corner[0], corner[0] + size[0]))
+    if shown.note:
+        _text(canvas, shown.note, (corner[0] + 0.5 * size[0], corner[1] + 2.0 * em), labels.WHITE, 0.5, (corner[0], corner[0] + size[0]))
+    canvas.pop_clip_rect()
+
+
+def _text(canvas: imgui.ImDrawList, text: str, place: Corner, colour: Colour, share: float, sides: tuple[float, float]) -> None:
+    """`text` on a backdrop, with `share` of its width to the left of `place`, moved as little as brings it between the picture's `sides`."""
+    em, (wide, high) = hello_imgui.em_size(), imgui.calc_text_size(text)
+    pad = 0.3 * em
+    left = min(max(place[0] - share * wide, sides[0] + pad), max(sides[1] - wide - pad, sides[0] + pad))
+    top = math.floor(place[1] - 0.5 * high)
+    canvas.add_rect_filled((left - pad, top - 0.1 * em), (left + wide + pad, top + high + 0.1 * em), imgui.color_convert_float4_to_u32(theme.BACKDROP))
+    canvas.add_text((left, top), _code(colour, 1.0), text)
+
+
+def _code(colour: Colour, alpha: float) -> int:
+    return imgui.color_convert_float4_to_u32((*colour, alpha))

@@ -1,0 +1,159 @@
+"""Where the observer sees circles of the equatorial plane, by which crossing of the plane one likes: closed forms in float64, in Kerr.
+
+In Mino time τ (M = 1, E = 1) the two motions of light part (docs/physics.md). The polar one gives the time of the n-th crossing of the plane as an elliptic
+integral; the radial one, w'² = 1 + (a²−λ²−η) w² + 2((λ−a)²+η) w³ − a²η w⁴ for w = M/r, gives w at that time by Biermann's formula with Weierstrass's ℘
+(Whittaker & Watson, *A Course of Modern Analysis*, §20.6). Neither asks how often a ray turns round.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..shapes import Bool, Float, Int
+from .observer import Observer, local_directions, parallel_rays
+from .relativity import carlson_rf, critical_curve, horizon_radius, shadow_angle
+
+Array = np.ndarray
+
+_HALVINGS = 4  # of τ, until Laurent's series of ℘ converges quickly
+_TERMS = 12
+_LOOKS = 24  # along a ray, for its end: the shortest way through the hole or infinity and back takes several of them
+_BISECTIONS = 20  # of half a turn: 3e-6 rad, an eighth of a pixel where a picture 720 high shows a degree
+
+
+@dataclass(frozen=True)
+class Light:
+    """Rays traced backwards from the camera, in units of their energy at infinity with M = 1: arrays (…).
+
+    Attributes:
+        spin: a*.
+        energy: E over that which the observer measures; where it `is_bound`, 1.
+        lam, eta: L_z/E and Q/E², of the light that arrives.
+        w, w_rate, u, u_rate: M/r, cos θ at the camera and their rates in Mino time. `w` and `u` are numbers.
+        is_bound: whether E ≤ 0, as of some light in the ergosphere: it comes from the horizon.
+    """
+
+    spin: float
+    energy: Float[Array, "*rays"]
+    lam: Float[Array, "*rays"]
+    eta: Float[Array, "*rays"]
+    w: float
+    w_rate: Float[Array, "*rays"]
+    u: float
+    u_rate: Float[Array, "*rays"]
+    is_bound: Bool[Array, "*rays"]
+
+
+def light(observer: Observer, directions: Float[Array, "*rays 3"]) -> Light:
+    """The rays that `observer` sees in local `directions` (…, 3) of its tetrad; for a far one, `parallel_rays`."""
+    rows = np.asarray(directions, float) @ observer.tetrad[:, 1:].T + observer.tetrad[:, 0]
+    is_bound = rows[..., 0] <= 0.0
+    energy = np.where(is_bound, 1.0, rows[..., 0])
+    w_rate, down, aside = (rows[..., k] / energy for k in (1, 2, 3))
+    cosine, sine = float(observer.n[2]), math.hypot(observer.n[0], observer.n[1])
+    eta = down**2 + cosine**2 * (aside**2 - observer.spin**2)
+    return Light(observer.spin, energy, -sine * aside, eta, observer.w, w_rate, cosine, -sine * down, is_bound)
+
+
+def crossing_radius(rays: Light, order: Int[Array, "*#rays"]) -> Float[Array, "*rays"]:
+    """Radius in r_s of crossing `order` (…) from 0 of the plane along each ray; 0 where it ends in the hole before, infinite where it escapes before."""
+    time = _crossing_time(rays, order)
+    horizon = 0.5 / float(horizon_radius(rays.spin))
+    shares = np.arange(1, _LOOKS + 1) / _LOOKS
+    w = _inverse_radius(rays, time[..., None] * shares)
+    fell, left = w > horizon, ~(w > 0.0)
+    ends = fell | left
+    first = np.argmax(ends, axis=-1)
+    falls = np.take_along_axis(fell, first[..., None], axis=-1)[..., 0]
+    at_end = np.where(falls, 0.0, np.inf)
+    inside = rays.is_bound | (rays.eta <= 0.0)  # light that never meets the plane: it is seen about the axis
+    with np.errstate(divide="ignore"):
+        return np.where(inside, 0.0, np.where(ends.any(axis=-1), at_end, 0.5 / w[..., -1]))
+
+
+def circles(
+    observer: Observer, radii: Float[Array, " circles"], orders: Int[Array, " circles"], angles: Float[Array, " N"]
+) -> Float[Array, "circles N 3"]:
+    """Local directions (C, N, 3) in which circles of `radii` (r_s) are seen, each by a crossing of its own, at `angles` on the screen from right towards up.
+
+    Raises:
+        ValueError: the camera is not outside the circles.
+    """
+    if observer.w * 2.0 * radii.max() >= 1.0:
+        raise ValueError(f"the image of the circle r = {radii.max():g} r_s is asked for from r = {0.5 / observer.w:g} r_s; allowed is a camera outside of it")
+    radius, order = radii[:, None], orders[:, None]
+    low = np.zeros((len(radii), len(angles)))
+    high = low + (4.0 * radius + 20.0 if observer.w == 0.0 else math.pi)
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        inside = crossing_radius(light(observer, _directions(observer, middle, angles)), order) < radius
+        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    return _directions(observer, 0.5 * (low + high), angles)
+
+
+def shadow_edge(observer: Observer, angles: Float[Array, " N"]) -> Float[Array, "N 3"]:
+    """Local directions (N, 3) of the critical curve, closed: at `angles` on the screen, or for a far observer as many points as there are angles."""
+    theta = math.atan2(math.hypot(observer.n[0], observer.n[1]), observer.n[2])
+    if observer.w == 0.0:
+        return parallel_rays(*critical_curve(observer.spin, theta, len(angles)))
+    return local_directions(shadow_angle(angles, 0.5 / observer.w, theta, observer.spin, observer.kind), angles)
+
+
+def _directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Array, " N"]) -> Float[Array, "*at N 3"]:
+    """Directions `away` from the hole's centre: radians, or M for a far observer."""
+    if observer.w == 0.0:
+        return parallel_rays(away * np.cos(angles), away * np.sin(angles))
+    return local_directions(away, angles)
+
+
+def _crossing_time(rays: Light, order: Int[Array, "*#rays"]) -> Float[Array, "*rays"]:
+    """Mino time to crossing `order`, from (du/dτ)² = (p − u²)(q + a²u²)."""
+    a2, eta = rays.spin**2, np.maximum(rays.eta, 1e-30)
+    b = eta + rays.lam**2 - a2
+    root = np.sqrt(b * b + 4.0 * a2 * eta)
+    q = np.where(b >= 0.0, 0.5 * (b + root), 2.0 * a2 * eta / np.where(b >= 0.0, 1.0, root - b))
+    p = eta / q
+    m = a2 * p / q
+    sine2 = np.minimum(rays.u**2 / p, 1.0)
+    to_plane = np.sqrt(sine2 / q) * carlson_rf(1.0 - sine2, 1.0 + m * sine2, np.ones_like(m))
+    quarter = carlson_rf(np.zeros_like(m), 1.0 + m, np.ones_like(m)) / np.sqrt(q)
+    away = (rays.u_rate * rays.u > 0.0) | (rays.u == 0.0)  # from the plane; a camera in it does not count as a crossing
+    return np.where(away, 2.0 * quarter - to_plane, to_plane) + 2.0 * order * quarter
+
+
+def _inverse_radius(rays: Light, time: Float[Array, "*rays times"]) -> Float[Array, "*rays times"]:
+    """w = M/r at Mino times (…, T) along the rays (…), by Biermann's formula."""
+    a, lam, eta, w = rays.spin, rays.lam[..., None], rays.eta[..., None], rays.w
+    c2, c3, c4 = a * a - lam**2 - eta, 2.0 * ((lam - a) ** 2 + eta), -a * a * eta
+    f = rays.w_rate[..., None] ** 2
+    slope, bend, third, fourth = w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4)), 2.0 * c2 + w * (6.0 * c3 + w * 12.0 * c4), 6.0 * c3 + 24.0 * w * c4, 24.0 * c4
+    value, rate = weierstrass(time, c4 + c2**2 / 12.0, c4 * c2 / 6.0 - c2**3 / 216.0 - c3**2 / 16.0)
+    lifted = value - bend / 24.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return w + (0.5 * slope * lifted + f * third / 24.0 - rays.w_rate[..., None] * rate) / (2.0 * lifted**2 - f * fourth / 48.0)
+
+
+def weierstrass(z: Float[Array, "*at"], g2: Float[Array, "*with"], g3: Float[Array, "*with"]) -> tuple[Float[Array, "*all"], Float[Array, "*all"]]:
+    """℘ and ℘' at real z ≠ 0 with the invariants `g2`, `g3`: Laurent's series near 0, then the duplication of the argument."""
+    near = z / 2.0**_HALVINGS
+    square = near**2
+    coefficients = [g2 / 20.0, g3 / 28.0]
+    for k in range(4, _TERMS + 2):
+        products = [coefficients[m - 2] * coefficients[k - m - 2] for m in range(2, k - 1)]
+        coefficients.append(3.0 / ((2 * k + 1) * (k - 3)) * np.sum(products, axis=0))
+    value, rate = 1.0 / square, -2.0 / (square * near)
+    power = np.ones_like(square)
+    for k, coefficient in enumerate(coefficients, 2):
+        rate = rate + (2 * k - 2) * coefficient * power * near
+        power = power * square
+        value = value + coefficient * power
+    for _ in range(_HALVINGS):
+        bend = 6.0 * value**2 - 0.5 * g2
+        ratio = bend / rate
+        doubled = 0.25 * ratio**2 - 2.0 * value
+        rate = ratio * (value - doubled) - rate
+        value = doubled
+    return value, rate

@@ -1,0 +1,207 @@
+"""Names and outlines for a lecture: what is where in a picture, by the closed forms of `physics.lensed_circles`. No GL here; whoever draws them is told places.
+
+Places are (right, down) from the picture's top left, in heights of the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from ..physics import lensed_circles, relativity
+from ..physics.observer import Observer, observe
+from ..physics.space_time import space_time
+from ..plan import Plan
+from ..plan import plan as make_plan
+from ..scene import Scene
+from ..shapes import Float
+from .views import Colour
+
+_POINTS = 180  # of a curve
+_LEAST_AHEAD = 1e-3
+_BESIDE = 0.12  # of a picture's height: from the outermost curve to the names
+_MARGIN = 0.03
+_LINE_SPACING = 0.05  # of names above one another
+
+WHITE: Colour = (0.95, 0.95, 0.95)
+AMBER: Colour = (0.98, 0.72, 0.35)
+GREEN: Colour = (0.45, 0.90, 0.62)
+BLUE: Colour = (0.60, 0.68, 1.00)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A thin line: places, float64 (N, 2), NaN where it is behind the camera."""
+
+    places: Float[np.ndarray, "N 2"]
+    colour: Colour
+
+
+@dataclass(frozen=True)
+class Name:
+    """Words with a line that leads from them to what they name.
+
+    Attributes:
+        at: the place named.
+        place: where the words begin, or end where they stand on the left of it.
+    """
+
+    text: str
+    at: tuple[float, float]
+    place: tuple[float, float]
+    colour: Colour
+
+    @property
+    def is_on_the_left(self) -> bool:
+        """Whether the words stand on the left of what they name."""
+        return self.place[0] < self.at[0]
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What is drawn over a picture.
+
+    Attributes:
+        note: why there is nothing, where there is nothing.
+    """
+
+    curves: tuple[Curve, ...] = ()
+    names: tuple[Name, ...] = ()
+    note: str = ""
+
+
+def of(scene: Scene, aspect: float) -> Labels:
+    """The labels of a picture of `scene` whose width is `aspect` heights.
+
+    Raises:
+        SceneError, ValueError: the scene cannot be drawn; the text says why.
+    """
+    return _of(_shape_of(scene), aspect)
+
+
+def _shape_of(scene: Scene) -> Scene:
+    """`scene` with nothing but what labels depend on, so that a slider of colours finds those that are there."""
+    disk, bare = scene.disk, Scene()
+    bare_disk = replace(bare.disk, enabled=disk.enabled, inner_radius=disk.inner_radius, outer_radius=disk.outer_radius, orbit=disk.orbit)
+    return replace(bare, hole=scene.hole, camera=scene.camera, rays=scene.rays, disk=bare_disk)
+
+
+@lru_cache(maxsize=4)
+def _of(scene: Scene, aspect: float) -> Labels:
+    plan = make_plan(scene)
+    why = _why_not(plan)
+    return Labels(note=why) if why else _Maker(plan, observe(scene), aspect).labels()
+
+
+def places(observer: Observer, scene: Scene, aspect: float, directions: Float[np.ndarray, "*at 3"]) -> Float[np.ndarray, "*at 2"]:
+    """Where local `directions` (…, 3) of the observer's tetrad lie in the picture; NaN behind the camera."""
+    seen = np.asarray(directions, float) @ observer.look
+    ahead = np.where(-seen[..., 0] > _LEAST_AHEAD, -seen[..., 0], np.nan)
+    camera = scene.camera
+    half = 0.5 * camera.field_m if observer.w == 0.0 else math.tan(math.radians(0.5 * camera.fov_deg))
+    return np.stack([0.5 * aspect + 0.5 * seen[..., 2] / (half * ahead), 0.5 + 0.5 * seen[..., 1] / (half * ahead)], axis=-1)
+
+
+def _why_not(plan: Plan) -> str:
+    hole = plan.scene.hole
+    if plan.space_time.kind == "flat" or not plan.model.traits.exact:
+        return f"No labels: the ray model {plan.model.key} has no closed forms for them. Exact models of a hole do."
+    if (hole.gravity_strength, hole.horizon_size) != (1.0, 1.0) and plan.model.traits.space_time == "schwarzschild":
+        return "No labels: hole.gravity_strength and hole.horizon_size are art, and closed forms are physics."
+    return ""
+
+
+class _Maker:
+    """Puts the labels of one picture together."""
+
+    def __init__(self, plan: Plan, observer: Observer, aspect: float):
+        self._plan, self._observer, self._aspect = plan, observer, aspect
+        self._angles = np.linspace(0.0, 2.0 * np.pi, _POINTS + 1)
+        self._hole = self._place(_towards_hole())
+
+    def labels(self) -> Labels:
+        """All of them."""
+        edge = self._closed(lensed_circles.shadow_edge(self._observer, self._angles[:-1]))
+        curves, named = [Curve(edge, WHITE)], [("shadow, inside the critical curve", self._outermost(edge, 62.0), 62.0, WHITE)]
+        for text, directions, at_deg, colour in self._circles():
+            line = self._place(directions)
+            curves.append(Curve(line, colour))
+            named.append((text, self._outermost(line, at_deg), at_deg, colour))
+        named += self._sides()
+        named.append(("centre of the hole", self._hole, 270.0, WHITE))
+        reach = _BESIDE + max(float(np.nanmax(np.linalg.norm(curve.places - self._hole, axis=-1), initial=0.0)) for curve in curves)
+        found = [self._name(text, at, angle, colour, reach) for text, at, angle, colour in named]
+        return Labels(tuple(curves), tuple(_apart(name for name in found if name is not None)))
+
+    def _circles(self) -> Iterator[tuple[str, Float[np.ndarray, "N 3"], float, Colour]]:
+        """(name, local directions, angle of the name on the screen, colour) of the images of circles in the disk's plane."""
+        scene, where = self._plan.scene, space_time(self._plan.scene)
+        isco = where.isco_radius(scene.disk.orbit)
+        wanted = [(f"innermost stable orbit (ISCO), r = {isco:.3g} r_s", isco, 0, 118.0, AMBER)]
+        rings = ("first ring (n = 1)", 36.0, GREEN), ("second ring (n = 2)", 12.0, BLUE)
+        wanted += [(text, self._plan.disk_inner, order, angle, colour) for order, (text, angle, colour) in enumerate(rings, 1) if order < self._plan.orders]
+        wanted = [item for item in wanted if 2.0 * item[1] * self._observer.w < 1.0]
+        if not wanted:
+            return
+        directions = lensed_circles.circles(
+            self._observer, np.array([item[1] for item in wanted]), np.array([item[2] for item in wanted]), self._angles
+        )
+        for (text, _, _, angle, colour), line in zip(wanted, directions):
+            yield text, line, angle, colour
+
+    def _sides(self) -> Iterator[tuple[str, Float[np.ndarray, " 2"], float, Colour]]:
+        """(name, place, angle, colour) of the approaching and the receding side of the disk's inner edge."""
+        plan, observer = self._plan, self._observer
+        inner, orbit = plan.disk_inner, plan.scene.disk.orbit
+        if not plan.scene.disk.enabled or 2.0 * inner * observer.w >= 1.0:
+            return
+        (directions,) = lensed_circles.circles(observer, np.array([inner]), np.array([0]), self._angles)
+        rays = lensed_circles.light(observer, directions)
+        g = relativity.circular_orbit_g(inner, rays.lam, plan.space_time.spin, orbit) / rays.energy
+        for text, index, colour in (("approaching", int(np.nanargmax(g)), BLUE), ("receding", int(np.nanargmin(g)), AMBER)):
+            at = self._place(directions[index])
+            away = at - self._hole
+            yield f"{text} side, g = {g[index]:.2f}", at, math.degrees(math.atan2(-away[1], away[0])), colour
+
+    def _place(self, directions: Float[np.ndarray, "*at 3"]) -> Float[np.ndarray, "*at 2"]:
+        return places(self._observer, self._plan.scene, self._aspect, directions)
+
+    def _closed(self, directions: Float[np.ndarray, "N 3"]) -> Float[np.ndarray, "M 2"]:
+        return self._place(np.concatenate([directions, directions[:1]]))
+
+    def _outermost(self, line: Float[np.ndarray, "N 2"], angle_deg: float) -> Float[np.ndarray, " 2"]:
+        """The place of `line` farthest from the hole in a direction on the screen; NaN where there is none."""
+        along = (line - self._hole) @ _screen_direction(angle_deg)
+        return line[int(np.nanargmax(along))] if np.isfinite(along).any() else np.full(2, np.nan)
+
+    def _name(self, text: str, at: Float[np.ndarray, " 2"], angle_deg: float, colour: Colour, reach: float) -> Name | None:
+        """`text` beside the outermost curve, within the picture; None where what it names is not in the picture."""
+        if not (0.0 <= at[0] <= self._aspect and 0.0 <= at[1] <= 1.0):
+            return None
+        place = self._hole + reach * _screen_direction(angle_deg)
+        x, y = np.clip(place, _MARGIN, (self._aspect - _MARGIN, 1.0 - _MARGIN)).tolist()
+        return Name(text, (float(at[0]), float(at[1])), (x, y), colour)
+
+
+def _apart(names: Iterable[Name]) -> Iterator[Name]:
+    """`names` moved down where they would stand on one another, on either side of the picture."""
+    lowest: dict[bool, float] = {}
+    for name in sorted(names, key=lambda name: name.place[1]):
+        x, y = name.place
+        side = name.is_on_the_left
+        y = max(y, lowest.get(side, -1.0) + _LINE_SPACING)
+        lowest[side] = y
+        yield replace(name, place=(x, y))
+
+
+def _towards_hole() -> Float[np.ndarray, " 3"]:
+    return np.array([-1.0, 0.0, 0.0])
+
+
+def _screen_direction(angle_deg: float) -> Float[np.ndarray, " 2"]:
+    """From right towards up, as (right, down)."""
+    return np.array([math.cos(math.radians(angle_deg)), -math.sin(math.radians(angle_deg))])
