@@ -179,6 +179,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "labels": toggle_labels,
     "panel": flip("show_panel"),
     "overlay": flip("show_overlay"),
+    "values": flip("show_values"),
     "chart": flip("show_chart"),
     "paths": flip("show_paths"),
     "sides": flip("show_sides"),

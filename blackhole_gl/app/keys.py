@@ -79,6 +79,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("full_screen", ("F11",), "Full screen"),
     Action("view", ("V",), "Next view: picture, steps, orders, g-factor, temperature, difference, conservation, unresolved"),
     Action("labels", ("L",), "Show or hide labels: shadow, rings, innermost stable orbit, sides"),
+    Action("values", ("I",), "Show or hide the values of the pixel under the mouse: r, φ, g, temperature, order, λ"),
     Action("panel", ("TAB",), "Show or hide panel and bar"),
     Action("panel_keys", ("F6",), "Panel by keys: arrows and TAB go, SPACE and ENTER take, ESC leaves"),
     Action("overlay", ("O",), "Show or hide figures and compass"),

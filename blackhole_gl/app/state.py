@@ -69,6 +69,7 @@ class WindowState:
     show_help: bool = False
     show_overlay: bool = True
     show_chart: bool = False
+    show_values: bool = False
     show_paths: bool = False
     show_sides: bool = False
     show_search: bool = False

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ..output import png
+from ..render.annotation import annotated
+from ..render.views import View
 from ..scene import Scene, presets
 
 TILE = 128
@@ -64,7 +66,7 @@ class Still:
         try:
             while clock.perf_counter() - began < _FRAME_SHARE_S:
                 if self._draw():
-                    self._written = self._writer.submit(self._write, self._renderer.read_rgb8())
+                    self._written = self._writer.submit(self._write, self._renderer.read_rgb8(), self._renderer.view_of(self.order.scene))
                     return
         except Exception as error:  # whatever the renderer cannot do: too large a picture, say
             self.failure = str(error) or type(error).__name__
@@ -94,6 +96,6 @@ class Still:
         self.share = 1.0 if share is None else share
         return share is None
 
-    def _write(self, pixels: Any) -> None:
+    def _write(self, pixels: Any, view: View | None) -> None:
         order = self.order
-        png.write(order.path, pixels, presets.picture_text(order.scene, order.time, order.path.absolute().parent))
+        png.write(order.path, annotated(pixels, order.scene, view), presets.picture_text(order.scene, order.time, order.path.absolute().parent))

@@ -18,8 +18,21 @@ import moderngl
 from ..resources import user_config_dir
 from ..scene import Scene, catalogue
 from . import (
-    bar, commands, file_commands, help_window, kept, keys, label_overlay, overlay, preset_switch, runner, scene_files, search_window, view_scale, window_settings,
-)  # fmt: skip
+    bar,
+    commands,
+    file_commands,
+    help_window,
+    kept,
+    keys,
+    label_overlay,
+    overlay,
+    preset_switch,
+    runner,
+    scene_files,
+    search_window,
+    view_scale,
+    window_settings,
+)
 from .area import Area
 from .ending import Ending
 from .file_dialog import FileDialog
@@ -27,6 +40,7 @@ from .full_screen import FullScreen
 from .gesture import Gesture
 from .live_chart import LiveChart
 from .mouse import Mouse
+from .mouse_values import MouseValues
 from .opening import WindowError, open_platform
 from .panel import Panel
 from .panel_width import PanelWidth
@@ -161,6 +175,7 @@ class Window:
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
         self.path_view = PathView()
+        self._mouse_values = MouseValues()
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
         self._may_idle = may_idle
@@ -234,6 +249,7 @@ class Window:
         em = hello_imgui.em_size()
         overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
+        self._mouse_values.frame(state, (view.left, view.top), (view.width, view.height))
         label_overlay.draw(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(state.scene)
         view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
@@ -271,6 +287,7 @@ class Window:
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture_window.advance(self._gl, self.state)
+        self._mouse_values.advance(self.picture)
         self.picture.draw(window, view.area)
         self.side_by_side.draw(self.state, window, view.area)
 

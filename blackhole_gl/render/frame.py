@@ -13,11 +13,12 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, supersampling, views
+from . import diagnostics, pixel_values, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .metering import Exposure
+from .pixel_values import PixelValues
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
@@ -249,6 +250,14 @@ class Renderer:
     def hits(self) -> HitArrays:
         """The hit map of the last frame."""
         return self.hit_map.read()
+
+    def values_at(self, place: tuple[float, float]) -> PixelValues | None:
+        """What the ray meets at `place` of the last frame, its width and height counted 0…1 from the bottom left; None where no pixel has a ray of its own."""
+        if not self.hit_map.textures:
+            return None
+        pixel = math.floor(place[0] * self.hit_map.textures[0].width), math.floor(place[1] * self.hit_map.textures[0].height)
+        found = self.hit_map.at(pixel)
+        return None if found is None else pixel_values.of(*found, pixel)
 
     def view_of(self, scene: Scene) -> views.View | None:
         """The diagnostic view that `scene` asks for, with the scale of the last frame; None for the picture itself."""

@@ -258,6 +258,23 @@ class HitMap:
         found = hit_texels.unpacked(stored, plan.orders, plan.meetings)
         return replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
 
+    def at(self, pixel: tuple[int, int]) -> tuple[FrameInputs, HitArrays] | None:
+        """What the map was traced for, and the hits of `pixel` (x, y) from the bottom left, alone, so that little is brought to the host; None where there is
+        no such pixel with a ray of its own. Waits for the GPU.
+
+        Without a map, or where it is not sharp, there is none.
+        """
+        if self._last is None or not self.textures or not self.is_sharp:
+            return None
+        width, height = self.textures[0].size
+        if not (0 <= pixel[0] < width and 0 <= pixel[1] < height):
+            return None
+        plan, target = self._last.plan, self._targets[len(self.textures)]
+        texels = [np.frombuffer(target.read((*pixel, 1, 1), 4, attachment=k, dtype="f4"), np.float32).reshape(1, 4) for k in range(len(self.textures))]
+        found = hit_texels.unpacked(texels, plan.orders, plan.meetings)
+        found = replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
+        return self._last, found.each(lambda values: values.reshape(values.shape[1:]))
+
     def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Of a sharp map, as int (height, width): a third of what `read` brings to the host, and none of its arithmetic."""
         return hit_texels.fates_and_steps(_texels(self.textures[0]))

@@ -1,11 +1,14 @@
 """A renderer of flat colours, for tests of the window that do not look at physics."""
 
+import math
 import time as clock
 from dataclasses import dataclass
 
 import numpy as np
 
+from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.render import views
+from blackhole_gl.render.pixel_values import OnDisk, PixelValues
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,8 @@ class FakePrograms:
 class FakeHitMap:
     """A hit map that has nothing to forget."""
 
+    generation = 1
+
     def forget(self):
         pass
 
@@ -49,6 +54,7 @@ class FakeRenderer:
 
     def __init__(self, gl):
         self.calls = []
+        self.places = []
         self.programs = FakePrograms()
         self.hit_map = FakeHitMap()
         self.exposure = FakeExposure()
@@ -88,6 +94,11 @@ class FakeRenderer:
 
     def view_of(self, scene):
         return views.view_of(scene)
+
+    def values_at(self, place):
+        self.places.append(place)
+        disk = OnDisk(1, 3.25, 0.5, 0.8, 4100.0)
+        return PixelValues(Fate.ESCAPED, -2.5, 7.0, math.nan, None, disk, (1.2, 0.4), "")
 
     def fates_and_steps(self):
         return np.ones((2, 2), int), np.full((2, 2), 10)

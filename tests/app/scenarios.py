@@ -441,6 +441,39 @@ def real_picture(hands: Hands) -> None:
     assert without_disk.mean() < 0.5 * with_disk.mean()
 
 
+def values_under_the_mouse(hands: Hands) -> None:
+    """I tells the values of the pixel that the mouse is over, asked for once while neither moves; none over the panel, or while the camera moves."""
+    places = hands.window.picture.renderer.places
+
+    def is_shown() -> bool:
+        found = imgui.internal.find_window_by_name("##values")
+        return bool(found is not None and found.active)
+
+    places.clear()
+    x, y = hands.to_picture()
+    hands.context.yield_(3)
+    assert not places and not is_shown()
+    hands.press(Key.p)  # a clock that stands still
+    hands.press(Key.i)
+    hands.to_picture()
+    hands.context.yield_(8)
+    view = hands.window.view()
+    assert is_shown() and len(places) == 1, places
+    mouse = imgui.get_io().mouse_pos
+    assert abs(places[0][0] - (mouse.x - view.left) / view.width) < 1e-6
+    assert abs(places[0][1] - (1.0 - (mouse.y - view.top) / view.height)) < 1e-6
+    hands.context.mouse_move_to_pos((x + 30, y + 10))
+    hands.context.yield_(4)
+    assert places[-1][0] > places[0][0] and places[-1][1] < places[0][1]
+    hands.context.mouse_move(hands.item("##hole.spin"))
+    hands.context.yield_(4)
+    assert not is_shown()
+    hands.to_picture()
+    hands.press(Key.i)
+    hands.context.yield_(4)
+    assert not is_shown() and not hands.state.show_values
+
+
 def labels_by_key(hands: Hands) -> None:
     """L names what the picture shows while the camera rests, and nothing is worked out while it moves."""
     asked, of = [], labels.of
