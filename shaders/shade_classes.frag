@@ -10,9 +10,10 @@
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/disk_edge.glsl"
+#include "common/orders_shown.glsl"
 
 void main() {
-    Hits hits = stored_hits(ivec2(gl_FragCoord.xy));
+    Hits hits = shown_orders(stored_hits(ivec2(gl_FragCoord.xy)));
     bool disk = false;
 #if ORDERS > 0
     for (int n = 0; n < ORDERS; ++n)

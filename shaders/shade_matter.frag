@@ -16,6 +16,7 @@
 #include "common/hit_map_read.glsl"
 #include "common/colour.glsl"
 #include "common/disk_edge.glsl"
+#include "common/orders_shown.glsl"
 #include "common/disk_matter.glsl"
 #include "common/disk_orbit.glsl"
 #include "common/disk_temperature.glsl"
@@ -82,6 +83,16 @@ Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
     return Light(light.gathered + light.passed * look.x * emission, light.passed * (1.0 - look.y));
 }
 
+// The same, in the colour of the crossing's order if orders are tinted.
+Light pass_order(Light light, Hits hits, Crossing crossing, float energy) {
+    Light after = pass_disk(light, crossing, hits.lambda, energy);
+#if DISK_ORDERS_SHOWN_TINTED
+    const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);
+    after.gathered = light.gathered + dot(after.gathered - light.gathered, WEIGHTS) * order_tint(hits, crossing.point);
+#endif
+    return after;
+}
+
 #if MEETINGS > 1
 float medium_distance(int kind, int index, vec3 x) {
 #each medium : if (kind == MEDIUM_$KEY) return medium_$key_distance(index, x);
@@ -132,7 +143,7 @@ Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
 #endif
 
 void main() {
-    Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
+    Hits hits = shown_orders(fetch_hits(ivec2(gl_FragCoord.xy)));
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
 
     Light light = Light(vec3(0.0), vec3(1.0));
@@ -141,7 +152,7 @@ void main() {
         light = pass_meetings(light, hits, n, energy);
 #if ORDERS > 0
         Crossing crossing = crossing_of(hits.crossing[n]);
-        if (may_be_covered(crossing)) light = pass_disk(light, crossing, hits.lambda, energy);
+        if (may_be_covered(crossing)) light = pass_order(light, hits, crossing, energy);
 #endif
     }
     light = pass_meetings(light, hits, 3, energy);
@@ -155,7 +166,7 @@ void main() {
 
     bool left;
     do {
-        light = pass_disk(light, first, hits.lambda, energy);
+        light = pass_order(light, hits, first, energy);
         left = more;
         first = second;
         second = third;

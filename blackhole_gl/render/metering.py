@@ -92,7 +92,8 @@ class Meter:
     """Draws what shines in a scene, small and without its sky, and says how many stops bring it to the scene's key light.
 
     It looks at the hole from where the camera is, whatever way the camera looks, at scene time 0: so exposure follows the hole and the camera's place, and
-    neither a turning disk, nor a turning head, nor the window's shape change it. It needs the programs that draw the picture, and no others.
+    neither a turning disk, nor a turning head, nor the window's shape change it. It needs the programs that draw the picture, and no
+    others; where orders are shown apart it meters all of them, so that each is as bright as in the whole picture.
 
     Attributes:
         is_current: whether the last answer was metered for its own view.
@@ -146,7 +147,7 @@ class Meter:
         self._shade.draw(inputs, self._hit_map, self._target.frame)
         light = np.frombuffer(self._target.texture.read(), np.float16).reshape(-1, 4)[:, :3].astype(float) @ _LUMINANCE
         lit = np.sort(light[light > 0.0])
-        first, last = (round(share * lit.size) for share in BRIGHT)
+        first, last = (min(round(share * lit.size), lit.size - 1) for share in BRIGHT)
         return float(np.mean(np.log2(lit[first : max(last, first + 1)]))) if lit.size else -math.inf
 
 
@@ -166,5 +167,6 @@ def _view(plan: Plan) -> Plan:
         camera = replace(camera, field_m=min(camera.field_m, 4.0 * radius))
     else:
         camera = replace(camera, fov_deg=min(camera.fov_deg, math.degrees(2.0 * math.atan(radius / camera.distance))))
-    shown = Scene(scene.hole, camera, scene.rays, scene.disk, Sky(enabled=False), Post(), Playback(), scene.parameters, scene.things, scene.media)
+    disk = replace(scene.disk, orders_shown="all")
+    shown = Scene(scene.hole, camera, scene.rays, disk, Sky(enabled=False), Post(), Playback(), scene.parameters, scene.things, scene.media)
     return replace(plan, scene=shown, refine_px=0.0)

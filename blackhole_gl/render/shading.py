@@ -137,7 +137,7 @@ class ShadePass:
 
     def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
         size, plan = hit_map.textures[0].size, inputs.plan
-        key = (hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer)
+        key = (hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.orders_shown)
         made = self._classes
         if made is not None and key == self._classes_key:
             self._disk_box = self._disk_box or _disk_box(made.depth)

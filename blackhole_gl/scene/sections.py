@@ -134,6 +134,11 @@ class Disk:
         physical="exact",
     )
     beaming_exponent: float = number(4.0, 0.0, 6.0, "", "p in I_obs = g^p I: 4 for bolometric radiance, 3 for one frequency.")
+    orders_shown: str = choice(
+        "all", ("all", "direct", "first_ring", "second_ring", "tinted"),
+        "All images of the disk, one alone, or each in a colour of its own: direct orange, first ring green, second ring blue.",
+        physical="all",
+    )
     colour: str = choice(
         "blackbody", ("blackbody", "white"),
         "The colours that the temperatures have, or white light of the same luminance: the brightness alone, as on a black-and-white plate.",
