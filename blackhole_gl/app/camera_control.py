@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from ..physics import relativity
 from ..physics.space_time import space_time
 from ..scene import Scene, fields
 from ..scene.schema import Field
@@ -22,6 +23,7 @@ _NEAREST = 1e-4  # r_s above the horizon
 _SHADOW_M = 2.0 * math.sqrt(27.0)  # width of a hole's shadow from afar, in M: of every spin to within a tenth
 _SMALLEST = 0.01  # of the picture's height: a shadow narrower than this is a dot
 _LARGEST = 2.0  # a far camera's shadow over the picture's height
+_WIDEST = 4.0 / 3.0  # of a near camera's shadow, over the picture's height
 
 
 @dataclass(frozen=True)
@@ -130,13 +132,20 @@ def within_reach(pose: Pose, scene: Scene, start: Pose) -> Pose:
 def range_by_hand(scene: Scene) -> tuple[float, float]:
     """The least and the greatest distance in r_s, or height of a far camera's picture in M, at which the hole is neither all that is seen nor a dot.
 
-    Nearest is the middle of the radii at which light can orbit: from there the hole fills half the sky.
+    At the nearest its shadow is as wide as a picture of 4:3 that looks at it: some of the world is left at the sides, or in the corners.
     """
     if math.isinf(scene.camera.distance):
         return _SHADOW_M / _LARGEST, _SHADOW_M / _SMALLEST
-    hole = space_time(scene)
-    near = 0.5 * (hole.prograde_photon_orbit + hole.retrograde_photon_orbit)
-    return near, max(near, 0.5 * _SHADOW_M / (_SMALLEST * math.radians(scene.camera.fov_deg)))
+    half = math.radians(0.5 * scene.camera.fov_deg)
+    side = math.atan(math.tan(half) * _WIDEST)
+    near = float(relativity.schwarzschild_shadow_distance(side))
+    far = 0.5 * _SHADOW_M / (_SMALLEST * 2.0 * half)
+    return near * scene.hole.gravity_strength, far * scene.hole.gravity_strength  # which makes a larger hole of it
+
+
+def shadow_angle(scene: Scene) -> float:
+    """The angle in radians between the hole's centre and its shadow's edge, seen by the camera at rest: exact without spin, and near it with."""
+    return float(relativity.schwarzschild_shadow_angle(max(scene.camera.distance / scene.hole.gravity_strength, 1.0)))
 
 
 def clear_of_horizon(scene: Scene) -> Scene:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
+from ..scene import Scene
 from .commands import Hand
 
 _PAUSE_S = 0.35  # between the notches of a turning wheel, or the clicks of a double click
@@ -27,3 +28,24 @@ class Gesture:
         if presses or hand.wheel:
             self._until = now + _PAUSE_S
         return now < self._until
+
+
+class Editing:
+    """Whether a slider is being dragged: from its first change until the button is let go.
+
+    Args:
+        scene: the one shown first.
+    """
+
+    def __init__(self, scene: Scene):
+        self._lasts = False
+        self._scene = scene
+
+    def lasts(self, scene: Scene) -> bool:
+        """Whether it goes on in the frame that shows `scene`. Call once in each frame."""
+        if not imgui.is_mouse_down(imgui.MouseButton_.left):
+            self._lasts = False
+        elif imgui.is_any_item_active() and scene is not self._scene:
+            self._lasts = True
+        self._scene = scene
+        return self._lasts

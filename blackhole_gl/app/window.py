@@ -37,7 +37,7 @@ from .area import Area
 from .ending import Ending
 from .file_dialog import FileDialog
 from .full_screen import FullScreen
-from .gesture import Gesture
+from .gesture import Editing, Gesture
 from .live_chart import LiveChart
 from .mouse import Mouse
 from .mouse_values import MouseValues
@@ -55,6 +55,7 @@ from .start_line import StartLine
 from .state import WindowState
 from .thumbnails import Thumbnails
 from .warm_up import WarmUp
+from .way_out import WayOut
 
 _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
@@ -165,6 +166,7 @@ class Window:
         self._mouse = Mouse()
         self._panel_width = PanelWidth(self.kept.first_panel_em)
         self._gesture = Gesture()
+        self._way_out = WayOut(self.bindings)
         self.start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
         self._search = SearchWindow()
         self.dialog = FileDialog()
@@ -181,8 +183,7 @@ class Window:
         self._may_idle = may_idle
         self._next_reload = 0.0
         self._was_moving = False
-        self._editing = False
-        self._drawn_scene = scene
+        self._editing = Editing(scene)
 
     def open(self, scene: Scene, preset_names: Sequence[str] = ()) -> None:
         """Starts afresh on `scene`, made from the presets of these names, or from none."""
@@ -289,6 +290,8 @@ class Window:
         self.picture_window.advance(self._gl, self.state)
         self._mouse_values.advance(self.picture)
         self.picture.draw(window, view.area)
+        if self.picture.is_current and self.state.render_error is None:
+            self._way_out.advance(self.state, window, view.area)
         self.side_by_side.draw(self.state, window, view.area)
 
     def remember(self) -> None:
@@ -345,7 +348,7 @@ class Window:
 
     def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state
-        editing = self._is_editing()
+        editing = self._editing.lasts(state.scene)
         moving = (state.is_moving or editing) and not state.picture_wanted
         camera_moving = editing or state.camera_moves
         self.side_by_side.advance(self._gl, state, area, glfw.get_time(), moving=moving, camera_moving=moving and camera_moving)
@@ -371,15 +374,6 @@ class Window:
         wanted, state.picture_wanted = state.picture_wanted, False
         if wanted and not failed:
             scene_files.save_picture(state, self.picture.read_rgb8(), self.picture.renderer.view_of(state.scene), self._picture_folder)
-
-    def _is_editing(self) -> bool:
-        """Whether a slider is being dragged: from its first change until the button is let go."""
-        if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            self._editing = False
-        elif imgui.is_any_item_active() and self.state.scene is not self._drawn_scene:
-            self._editing = True
-        self._drawn_scene = self.state.scene
-        return self._editing
 
     def _reload_shaders(self) -> None:
         """Takes up shader files that were edited. The mistakes in them are shown; the programs they would replace stay."""

@@ -231,6 +231,12 @@ def schwarzschild_shadow_angle(r: ArrayLike) -> Array:
     return np.arctan2(CRITICAL_IMPACT * np.sqrt(1.0 - 1.0 / r) / r, (1.0 - 1.5 / r) * np.sqrt(1.0 + 3.0 / r))
 
 
+def schwarzschild_shadow_distance(angle: ArrayLike) -> Array:
+    """Distance in r_s, outside the photon sphere, at which `schwarzschild_shadow_angle` is `angle`, 0 < angle <= pi/2: the cubic's largest root."""
+    angle = np.asarray(angle, dtype=np.float64)
+    return 3.0 / np.sin(angle) * np.cos((0.5 * np.pi + angle) / 3.0)
+
+
 def spherical_photon_orbit(s: ArrayLike, spin: ArrayLike) -> tuple[Array, Array]:
     """(lambda, eta) in M, M^2 of the spherical photon orbit r = 3 + a s (M = 1) [B73], finite as a -> 0."""
     a, s = np.asarray(spin, dtype=np.float64), np.asarray(s, dtype=np.float64)

@@ -45,11 +45,6 @@ class SpaceTime:
         return float(relativity.photon_orbit_radius(abs(self.horizon_spin)))
 
     @cached_property
-    def retrograde_photon_orbit(self) -> float:
-        """Radius in r_s of the outermost circular orbit of light."""
-        return float(relativity.photon_orbit_radius(abs(self.horizon_spin), "retrograde"))
-
-    @cached_property
     def stop_radius(self) -> float:
         """Radius in r_s below which an inward ray is captured without further march.
 

@@ -228,6 +228,7 @@ def double_click_on_a_widget_brings_the_presets_value(hands: Hands) -> None:
     assert hands.scene.disk.temperature_law == "shakura_sunyaev" != fields()["disk.temperature_law"].default
     assert not imgui.internal.find_window_by_name("##Combo_00").active, "and the list is closed"
     hands.click("##disk.beaming")
+    hands.context.sleep_no_skip(0.5, 1.0 / 60.0)  # or the next click would be this one's second
     hands.context.item_double_click(hands.item("##disk.beaming"))
     hands.context.yield_(2)
     assert hands.scene == in_force
@@ -512,6 +513,23 @@ def save_picture(hands: Hands) -> Path:
     return path
 
 
+def way_out_of_a_black_picture(hands: Hands) -> None:
+    """What nobody can see anything in names the key that brings it back, and that key does."""
+    wait(hands, lambda: hands.window.picture.is_current, seconds=60.0)
+    assert not hands.state.way_out
+    hands.state.change({"post.exposure": -8.0})
+    wait(hands, lambda: bool(hands.state.way_out), seconds=20.0)
+    hands.context.yield_(2)
+    assert "SHIFT+R" in hands.state.way_out and imgui.internal.find_window_by_name("Way out##message").active
+    hands.hold(Key.mod_shift | Key.r, 0.0, character="R")
+    wait(hands, lambda: not hands.state.way_out, seconds=20.0)
+    assert hands.scene.post.exposure == 0.0
+    hands.state.change({"camera.yaw_deg": 120.0})
+    wait(hands, lambda: "out of sight" in hands.state.way_out, seconds=20.0)
+    hands.press(Key.r)
+    wait(hands, lambda: not hands.state.way_out, seconds=20.0)
+
+
 def diagnostic_views(hands: Hands) -> None:
     """V goes through the views, each with its scale over the picture, and back to the picture."""
     shown = []
@@ -714,4 +732,4 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
-WITH_THE_REAL_RENDERER = (real_picture, shader_edited, live_chart, path_view, side_by_side, preset_switches_never_freeze)
+WITH_THE_REAL_RENDERER = (real_picture, way_out_of_a_black_picture, shader_edited, live_chart, path_view, side_by_side, preset_switches_never_freeze)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.app import commands, preset_switch, scene_files
+from blackhole_gl.app.camera_control import range_by_hand, shadow_angle
 from blackhole_gl.app.commands import Hand, advance
 from blackhole_gl.app.history import LONGEST
 from blackhole_gl.app.state import NOTICE_SECONDS, WindowState
@@ -251,11 +252,12 @@ def test_a_hole_that_grows_moves_the_camera_out(state):
     state.change({"camera.distance": 0.9})
     assert state.notice is None
     commands.toggle_spin(state)
-    assert state.scene.hole.spin == 0.0 and state.scene.camera.distance == 1.5
-    assert "moved out to 1.5 r_s" in state.notice.text
+    out = state.scene.camera.distance
+    assert state.scene.hole.spin == 0.0 and out == pytest.approx(range_by_hand(state.scene)[0], rel=1e-5)
+    assert f"moved out to {out:.4g} r_s" in state.notice.text
     for _ in range(10):
         advance(state, Hand(), 1 / 60)
-    assert state.scene.camera.distance == 1.5
+    assert state.scene.camera.distance == out
 
 
 def notches(state, direction):
@@ -271,9 +273,10 @@ def notches(state, direction):
 @pytest.mark.parametrize("spin", [0.0, 0.9, -0.9999])
 def test_the_wheel_ends_where_the_hole_is_still_seen(state, spin):
     state.change({"hole.spin": spin})
-    assert notches(state, 1.0) < 40
-    near = state.scene.camera.distance
-    assert 1.2 < near <= 1.5, "half the sky is dark here, and there is the other half"
+    assert notches(state, 1.0) < 20
+    camera = state.scene.camera
+    side = math.atan(math.tan(math.radians(0.5 * camera.fov_deg)) * 4.0 / 3.0)
+    assert shadow_angle(state.scene) == pytest.approx(side, rel=1e-6), "the hole is as wide as a picture, and no wider"
     state.notice = None
     notches(state, -1.0)
     camera = state.scene.camera

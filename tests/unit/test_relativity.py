@@ -215,3 +215,10 @@ def test_deflection_limits():
     # The logarithmic limit is right to O(epsilon ln epsilon).
     assert np.all(np.abs(relativity.deflection(b) - relativity.strong_deflection(b)) < 2 * epsilon * np.abs(np.log(epsilon)))
     assert np.isinf(relativity.deflection(relativity.CRITICAL_IMPACT)) and np.isnan(relativity.deflection(2.0))
+
+
+def test_a_shadow_of_each_size_is_seen_from_some_distance():
+    distance = np.geomspace(1.5, 1e4, 50)
+    found = relativity.schwarzschild_shadow_distance(np.minimum(relativity.schwarzschild_shadow_angle(distance), 0.5 * np.pi))
+    # At the photon sphere the size changes by the square root of a rounding error.
+    np.testing.assert_allclose(found, distance, rtol=1e-7)
