@@ -9,8 +9,9 @@ from ..scene import Scene
 from .preparation import Preparation
 
 # A scene whose programs have not drawn yet is drawn coarse first, whether rays may be interpolated or not: the first draw makes drivers finish
-# what compiling began, and takes its time however few the pixels. After that nothing is missing.
-_REHEARSALS = (False, True)  # the one with fewer programs first
+# what compiling began, and takes its time however few the pixels. After that nothing is missing. Each of these says whether rays may be interpolated, and
+# whether pixels at edges have several. That with the fewest programs comes first, and is the first picture of a window.
+_REHEARSALS = ((False, False), (False, True), (True, True))
 
 
 @dataclass(frozen=True)
@@ -92,8 +93,9 @@ class Readiness:
         self.bridges = bridge is not None
         if waits and not self.bridges:
             return None
-        rehearsal = _REHEARSALS[self._done] if self._done < len(_REHEARSALS) else None
-        return Step(scene, bridge or scene, waits, rehearsal, self._done == len(_REHEARSALS), self.preparation.deadline(now))
+        rehearsal, edges = _REHEARSALS[self._done] if self._done < len(_REHEARSALS) else (None, True)
+        drawn = bridge or (scene if edges else scene.with_values({"rays.edges": 1}))
+        return Step(scene, drawn, waits, rehearsal, self._done == len(_REHEARSALS), self.preparation.deadline(now))
 
     def drew(self, step: Step) -> None:
         """What `step` says has been drawn."""

@@ -357,8 +357,8 @@ def test_the_coarse_pictures_that_begin_another_scene_are_never_seen(ctx):
         assert rendered == shown.picture.is_current and shown.picture.scale == 1.0
         assert shown.seen() == close(60.0 if shown.picture.is_current else 40.0)
         seen.append(rendered)
-    assert seen == [False, False, False, True], "missed, rehearsed twice, drawn"
-    assert [size for *_, size in sizes[before:]] == [Shown.AREA.size, (16, 9), (16, 9), Shown.AREA.size], "kept, and the rest"
+    assert seen == [False, False, False, False, True], "missed, rehearsed three times, drawn"
+    assert [size for *_, size in sizes[before:]] == [Shown.AREA.size, *[(16, 9)] * 3, Shown.AREA.size], "kept, and the rest"
 
 
 def test_a_coarse_picture_is_shown_where_there_is_none_yet(ctx):
