@@ -18,7 +18,16 @@ _PADDING_EM = 0.35
 _TIME_EM = 9.0
 _TIME_SPEED = 0.1  # r_s/c for a pixel of drag
 _HELP = {action.name: action.help for action in ACTIONS}
-_BUTTONS = (("open", "Open …"), ("picture_window", "Picture …"), ("values", "Values"), ("search", "Search …"), ("help", "Help"), ("full_screen", "Full screen"))
+_BUTTONS = (
+    ("open", "Open …"),
+    ("picture_window", "Picture …"),
+    ("values", "Values"),
+    ("paths", "Paths of light"),
+    ("sides", "Side by side"),
+    ("search", "Search …"),
+    ("help", "Help"),
+    ("full_screen", "Full screen"),
+)
 
 
 def toolbar(draw: Callable[[], None]) -> hello_imgui.EdgeToolbar:

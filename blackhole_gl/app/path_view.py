@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec4, hello_imgui, imgui, implot3d
 
-from ..plan import plan as make_plan
 from ..render.recording import RayPath, Recorder
 from ..render.views import Scale, scale_of
 from ..scene import SceneError
@@ -44,12 +45,13 @@ class PathView:
 
     Attributes:
         paths: the rays shown.
+        coloured_by: an index of `_COLOURED_BY`.
     """
 
     def __init__(self) -> None:
         self.paths = Paths()
         self._recorder: Recorder | None = None
-        self._coloured_by = 0
+        self.coloured_by = 0
         self._pressed: Corner | None = None
         self._fit_next = True
 
@@ -111,8 +113,8 @@ class PathView:
 
     def _draw(self, state: WindowState) -> None:
         em, viewport = hello_imgui.em_size(), imgui.get_main_viewport()
-        imgui.set_next_window_pos((viewport.pos.x + 1.5 * em, viewport.pos.y + 0.42 * viewport.size.y), imgui.Cond_.first_use_ever.value)
-        imgui.set_next_window_size((58.0 * em, 0.56 * viewport.size.y), imgui.Cond_.first_use_ever.value)
+        imgui.set_next_window_pos((viewport.pos.x + 1.5 * em, viewport.pos.y + 0.5 * viewport.size.y), imgui.Cond_.first_use_ever.value)
+        imgui.set_next_window_size((58.0 * em, 0.48 * viewport.size.y), imgui.Cond_.first_use_ever.value)
         flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_saved_settings
         visible, stays = imgui.begin(TITLE, True, flags.value)
         state.show_paths = bool(stays)
@@ -152,9 +154,9 @@ class PathView:
     def _scale_row(self) -> None:
         em = hello_imgui.em_size()
         imgui.set_next_item_width(_PICKER_EM * em)
-        _, self._coloured_by = imgui.combo("##dots", self._coloured_by, [f"dots: {name}" for name in _COLOURED_BY])
+        _, self.coloured_by = imgui.combo("##dots", self.coloured_by, [f"dots: {name}" for name in _COLOURED_BY])
         imgui.same_line()
-        view_scale.bar(self._scale, max(imgui.get_content_region_avail().x, em), em)
+        view_scale.bar(_scale(bool(self.coloured_by)), max(imgui.get_content_region_avail().x, em), em)
 
     def _row(self, index: int, item: Shown) -> None:
         path = item.path
@@ -170,14 +172,10 @@ class PathView:
             imgui.text_wrapped(f"passes through the hole in step {', '.join(map(str, path.tunnels))}")
             imgui.pop_style_color()
 
-    @property
-    def _scale(self) -> Scale:
-        return scale_of("conservation") if self._coloured_by else _LOCAL_ERROR
-
     def _space(self, state: WindowState, height: float) -> None:
         scene = self.paths.shown[-1].asked.scene if self.paths.shown else state.scene
         try:
-            world = path_world.of(make_plan(scene))
+            world = path_world.of(scene)
         except (SceneError, ValueError) as error:  # parts that do not fit together; the window says so too
             imgui.text_wrapped(str(error))
             return
@@ -193,7 +191,7 @@ class PathView:
         implot3d.setup_box_initial_rotation(25.0, -60.0)
         _plot_world(world)
         for index, item in enumerate(self.paths.shown):
-            self._plot_path(index, item.path, 20.0 * reach)
+            _plot_path(index, _drawn(item, bool(self.coloured_by), 20.0 * reach))
         near, wrong = self._nearest_dot(), self._through_the_hole()
         corner, extent = implot3d.get_plot_rect_pos(), implot3d.get_plot_rect_size()
         implot3d.end_plot()
@@ -204,27 +202,6 @@ class PathView:
         canvas.pop_clip_rect()
         if near is not None:
             _tooltip(*near)
-
-    def _plot_path(self, index: int, path: RayPath, reach: float) -> None:
-        line = _spec(_colour(index), 1.5)
-        _line(f"way {index}", within(path.points, reach), line)
-        dots = path.is_state & (np.linalg.norm(path.points, axis=1) < reach)
-        if not np.any(dots):
-            return
-        spec = _spec(_colour(index), 1.0)
-        spec.marker, spec.marker_size = implot3d.Marker_.circle.value, 0.22 * hello_imgui.em_size()
-        spec.marker_fill_colors = spec.marker_line_colors = self._codes((path.drift if self._coloured_by else path.error)[dots])
-        x, y, z = (np.ascontiguousarray(values) for values in path.points[dots].T)
-        implot3d.plot_scatter(f"##steps {index}", x, y, z, spec)
-
-    def _codes(self, values: np.ndarray) -> np.ndarray:
-        """Colours (N,) of dots, as imgui packs them; grey where nothing was measured."""
-        scale = self._scale
-        colours = scale.colours(256)
-        places = [round(255 * scale.place(max(value, scale.low))) if math.isfinite(value) else None for value in values.tolist()]
-        quiet = (theme.FAINT.x, theme.FAINT.y, theme.FAINT.z)
-        picked = [quiet if place is None else tuple(colours[place]) for place in places]
-        return np.array([imgui.get_color_u32(ImVec4(float(colour[0]), float(colour[1]), float(colour[2]), 1.0)) for colour in picked], np.uint32)
 
     def _through_the_hole(self) -> list[tuple[imgui.ImVec2, imgui.ImVec2]]:
         """Where on the screen steps lead through the hole, in straight pieces."""
@@ -250,25 +227,70 @@ class PathView:
         return found
 
 
-def _plot_world(world: PathWorld) -> None:
+def _scale(by_drift: bool) -> Scale:
+    return scale_of("conservation") if by_drift else _LOCAL_ERROR
+
+
+@dataclass(frozen=True, eq=False)
+class _Drawn:
+    """A ray as it is plotted: its line and its dots, x, y and z apart, and the dots' colours as imgui packs them."""
+
+    line: tuple[np.ndarray, ...]
+    dots: tuple[np.ndarray, ...]
+    colours: np.ndarray
+
+
+@lru_cache(maxsize=64)
+def _drawn(item: Shown, by_drift: bool, reach: float) -> _Drawn:
+    """What is plotted of a ray up to `reach`; the same in every frame. Dots are grey where nothing was measured."""
+    path = item.path
+    near = path.is_state & (np.linalg.norm(path.points, axis=1) < reach)
+    values, scale = (path.drift if by_drift else path.error)[near], _scale(by_drift)
+    colours, quiet = scale.colours(256), (theme.FAINT.x, theme.FAINT.y, theme.FAINT.z)
+    picked = [colours[round(255 * scale.place(max(value, scale.low)))] if math.isfinite(value) else quiet for value in values.tolist()]
+    codes = [imgui.color_convert_float4_to_u32((float(red), float(green), float(blue), 1.0)) for red, green, blue in picked]
+    return _Drawn(_columns(within(path.points, reach)), _columns(path.points[near]), np.array(codes, np.uint32))
+
+
+@lru_cache(maxsize=4)
+def _ball(world: PathWorld) -> implot3d.Mesh:
     corners = [implot3d.Point(*map(float, corner)) for corner in world.hole_radius * world.ball]
+    return implot3d.Mesh(corners, world.ball_faces.ravel().tolist())
+
+
+def _columns(points: np.ndarray) -> tuple[np.ndarray, ...]:
+    return tuple(np.ascontiguousarray(values) for values in points.T)
+
+
+def _plot_path(index: int, drawn: _Drawn) -> None:
+    _line(f"way {index}", drawn.line, _spec(_colour(index), 1.5))
+    if not drawn.colours.size:
+        return
+    spec = _spec(_colour(index), 1.0)
+    spec.marker, spec.marker_size = implot3d.Marker_.circle.value, 0.22 * hello_imgui.em_size()
+    spec.marker_fill_colors = spec.marker_line_colors = drawn.colours
+    x, y, z = drawn.dots
+    implot3d.plot_scatter(f"##steps {index}", x, y, z, spec)
+
+
+def _plot_world(world: PathWorld) -> None:
     spec = _spec(_BALL_NET, 0.5)
     spec.fill_color, spec.flags = _BALL, _QUIET
-    implot3d.plot_mesh("##hole", implot3d.Mesh(corners, world.ball_faces.ravel().tolist()), spec)
+    implot3d.plot_mesh("##hole", _ball(world), spec)
     if len(world.disk):
         spec = _spec(_DISK, 0.0)
         spec.fill_color, spec.flags = _DISK, _QUIET | implot3d.TriangleFlags_.no_lines.value | implot3d.TriangleFlags_.no_markers.value
-        x, y, z = (np.ascontiguousarray(values) for values in world.disk.T)
+        x, y, z = _columns(world.disk)
         implot3d.plot_triangle("##disk", x, y, z, spec)
     for index, edge in enumerate(world.edges):
-        _line(f"edge {index}", edge, _spec(_DISK_EDGE, 1.0))
+        _line(f"edge {index}", _columns(edge), _spec(_DISK_EDGE, 1.0))
     for index, outline in enumerate(world.shell):
-        _line(f"shell {index}", outline, _spec(_SHELL, 1.0))
+        _line(f"shell {index}", _columns(outline), _spec(_SHELL, 1.0))
 
 
-def _line(name: str, points: np.ndarray, spec: implot3d.Spec) -> None:
-    if len(points) > 1:
-        x, y, z = (np.ascontiguousarray(values) for values in points.T)
+def _line(name: str, columns: tuple[np.ndarray, ...], spec: implot3d.Spec) -> None:
+    x, y, z = columns
+    if x.size > 1:
         implot3d.plot_line(f"##{name}", x, y, z, spec)
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from ..physics import relativity
-from ..plan import Plan
+from ..plan import plan as make_plan
+from ..scene import Scene
 from ..shapes import Float, Int
 
 _MERIDIANS = 12
@@ -16,9 +18,9 @@ _REACH = 4.0  # r_s: light bends here; what lies beyond is shown too, and a turn
 _RINGS, _SPOKES = 16, 32  # of the ball
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PathWorld:
-    """The space that rays of one plan go through.
+    """The space that rays of one scene go through.
 
     Attributes:
         hole_radius: of the black ball.
@@ -39,8 +41,14 @@ class PathWorld:
     reach: float
 
 
-def of(plan: Plan) -> PathWorld:
-    """What stands in the space of `plan`."""
+@lru_cache(maxsize=4)  # asked for in every frame
+def of(scene: Scene) -> PathWorld:
+    """What stands in the space of `scene`.
+
+    Raises:
+        SceneError: its parts do not fit together.
+    """
+    plan = make_plan(scene)
     where, hole = plan.space_time, plan.scene.hole
     size = hole.horizon_size if plan.model.traits.marches_in == "cartesian" else 1.0
     with_disk = plan.scene.disk.enabled

@@ -6,6 +6,7 @@ A model that goes from pixel to hits at once has no steps. Its ways are told by 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import moderngl
 import numpy as np
@@ -65,7 +66,7 @@ class RayPath:
     hole_radius: float
     method: str
 
-    @property
+    @cached_property
     def tunnels(self) -> tuple[int, ...]:
         """The steps that lead through the hole and out of it: what no ray can do."""
         outside = np.flatnonzero(np.linalg.norm(self.points, axis=1) > self.hole_radius)

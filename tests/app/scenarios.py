@@ -609,6 +609,10 @@ def path_view(hands: Hands) -> None:
     hands.context.mouse_up(0)
     hands.settle()
     assert len(paths.shown) == 2 and not paths.busy and hands.scene.camera.azimuth_deg != 0.0
+    hands.context.item_click("//Paths of light/##dots")
+    hands.context.item_click("//##Combo_00/$$1/dots: drift of what is conserved")
+    hands.context.yield_(3)
+    assert hands.window.path_view.coloured_by == 1 and not hands.state.render_error
     hands.context.item_click("//Paths of light/**/x##remove 0")
     hands.context.yield_(2)
     assert [item.path.fate.name for item in paths.shown] == ["CAPTURED"]

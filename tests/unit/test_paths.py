@@ -73,8 +73,7 @@ def test_what_cannot_be_recorded_is_told_until_something_can() -> None:
 
 
 def test_the_space_has_the_hole_the_shell_and_the_disk_of_the_plan() -> None:
-    made = plan.plan(KERR)
-    world = path_world.of(made)
+    made, world = plan.plan(KERR), path_world.of(KERR)
     assert world.hole_radius == pytest.approx(relativity.horizon_radius(0.9))
     np.testing.assert_allclose(np.linalg.norm(world.ball, axis=1), 1.0)
     corners = world.ball[world.ball_faces]
@@ -84,7 +83,7 @@ def test_the_space_has_the_hole_the_shell_and_the_disk_of_the_plan() -> None:
     assert radii.min() == pytest.approx(relativity.photon_orbit_radius(0.9)) and radii.max() == pytest.approx(relativity.photon_orbit_radius(0.9, "retrograde"))
     disk = np.linalg.norm(world.disk, axis=1)
     assert disk.min() == pytest.approx(made.disk_inner) and disk.max() == pytest.approx(made.disk_outer) and not world.disk[:, 2].any()
-    bare = path_world.of(plan.plan(KERR.with_values({"disk.enabled": False, "rays.lensing": False})))
+    bare = path_world.of(KERR.with_values({"disk.enabled": False, "rays.lensing": False}))
     assert not bare.shell and not len(bare.disk) and not bare.edges
 
 
