@@ -169,6 +169,7 @@ def trace(
     if float64:
         found = listed_rays.trace_by_reference(scene, listed.rays)
     else:
+        _tell_warnings(scene)
         found = listed_rays.trace_by_shader(_renderer(backend), scene, listed.rays)
     listed_rays.write(out, found, 17 if float64 else 9, listed)
 
@@ -296,12 +297,16 @@ def _refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
     from .plan import choice
 
     made = choice.choose(scene)
-    if made.meets:
-        return
-    text = f"rays.tolerance: {scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
-    if "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
-        raise SceneError("rays.tolerance", text.partition(": ")[2])
-    print(f"blackhole-gl: {text}; the nearest is used", file=sys.stderr)
+    if not made.meets and "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
+        text = f"{scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
+        raise SceneError("rays.tolerance", text)
+
+
+def _tell_warnings(scene: Scene) -> None:
+    from .plan import plan as make_plan
+
+    for warning in make_plan(scene).warnings:
+        print(f"blackhole-gl: {warning}", file=sys.stderr)
 
 
 def _time(time: float | None, names: list[str] | None) -> float:
@@ -334,11 +339,9 @@ def _renderer(backend: str):
 
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
     from .output import png
-    from .plan import plan as make_plan
     from .render.annotation import annotated
 
-    for warning in make_plan(scene).warnings:
-        print(f"blackhole-gl: {warning}", file=sys.stderr)
+    _tell_warnings(scene)
     renderer = _renderer(backend)
     with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)

@@ -46,7 +46,7 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
     if report.stops:
         imgui.text_colored(theme.QUIET, f"exposure {report.stops:+.1f} stops")
     for warning in report.warnings:
-        imgui.text_colored(theme.DEPARTS, warning.partition(",")[0])
+        imgui.text_colored(theme.DEPARTS, warning.partition(",")[0].partition(":")[0])
     if not report.sharp:
         imgui.text_colored(theme.QUIET, "interpolated between exact rays" if state.is_moving else "sharpening")
     if picture.samples > 1:

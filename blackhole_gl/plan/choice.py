@@ -166,6 +166,16 @@ def refinement(scene: Scene) -> Refinement | None:
     return Refinement(error, 1.0 + (nearest.cost_flat_ratio - 1.0) * more, nearest.cost_unrefined)
 
 
+def stated_error_px(scene: Scene) -> float:
+    """What the chart lets expect of the method of `scene`, which leaves nothing open, in pixels of a picture 1080 high; NaN where it was not measured."""
+    if not scene.rays.lensing or _not_measured(scene):
+        return math.nan
+    near = _nearest_scenes(scene)
+    rows = _rows_by_method(near).get(_stated_method(scene), {})
+    found = [error_px(scene, row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
+    return max(found) if found and len(found) == len(near) else math.nan
+
+
 @lru_cache(maxsize=64)
 def _rows_by_method(near: tuple[str, ...]) -> dict[Method, dict[tuple[str, bool], Measured]]:
     """Method → its rows in the measured scenes `near`, by scene and whether they are refined."""

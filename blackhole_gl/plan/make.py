@@ -73,7 +73,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) else WORLD,
         reasons=tuple(reasons),
-        warnings=_why_longer(stretch, max_steps),
+        warnings=(*_why_longer(stretch, max_steps), *_why_coarse(scene, chosen)),
     )
 
 
@@ -82,6 +82,22 @@ def _why_longer(stretch: float, max_steps: int) -> tuple[str, ...]:
     if stretch <= 1.0:
         return ()
     return (f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene: what is near the hole may be false",)
+
+
+def _why_coarse(scene: Scene, made: choice.Choice) -> tuple[str, ...]:
+    """What to say of `scene`, which leaves nothing open, where it errs more than its tolerance allows.
+
+    Nothing where that was not measured, and of models that are looks, which say so themselves.
+    """
+    if not ray_model(scene).traits.exact:
+        return ()
+    allowed = scene.rays.tolerance
+    if not made.meets:
+        return (f"{allowed:g} px of error cannot be met here, the floor of what was measured is {made.floor_px:.2g} px: the nearest is used",)
+    error = math.nan if made.chosen is not None else choice.stated_error_px(scene)
+    if error > allowed:
+        return (f"the steps stated err by {error:.2g} px, more than the {allowed:g} px allowed: without them a method within it would be taken",)
+    return ()
 
 
 def _meetings(scene: Scene) -> int:

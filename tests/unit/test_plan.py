@@ -153,3 +153,18 @@ def test_a_step_control_that_gave_way_is_not_the_one_looked_up(monkeypatch):
     """Presets of published steps state one for models that march in Cartesian steps."""
     monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(0.1, 2.1, 4.4) if scene.rays.step_control == "mino" else None)
     assert "2.1 flat frames" in _moving(planned(rays__model="kerr", rays__step_control="fixed").reasons)
+
+
+def test_steps_that_err_more_than_is_allowed_are_told():
+    stated = dict(rays__model="kerr", rays__integrator="rk4", rays__step_control="mino", rays__max_steps=8192, hole__spin=0.9)
+    (warning,) = planned(**stated, rays__step_angle=0.4).warnings
+    assert warning.startswith("the steps stated err by") and "0.5 px allowed" in warning
+    assert not planned(**stated, rays__step_angle=0.05).warnings
+    assert not planned(**stated, rays__step_angle=0.4, rays__tolerance=50.0).warnings
+    assert not planned(rays__model="weak_field").warnings, "a look, and marked as one"
+
+
+def test_a_tolerance_that_cannot_be_met_is_told():
+    open_ = {"rays.tolerance": 0.001, "hole.spin": 0.9, "camera.distance": 1.5}
+    (warning,) = plan.plan(Scene().with_values(open_)).warnings
+    assert "0.001 px of error cannot be met here" in warning
