@@ -77,7 +77,7 @@ def remark(keys: Sequence[str]) -> str:
     """What stands behind a preset's name where the scene differs from it in `keys`."""
     if not keys:
         return ""
-    return " · camera moved" if all(key.startswith("camera.") for key in keys) else " · modified"
+    return " · moved" if all(key.startswith("camera.") for key in keys) else " · modified"
 
 
 def layers(chosen: Mapping[str, str]) -> list[str]:

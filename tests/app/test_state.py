@@ -346,7 +346,7 @@ def test_a_preset_that_the_scene_has_left_is_called_modified(state):
     preset_switch.pick(state, "look", "smooth")
     assert remarks(state) == {"physics": "", "look": ""}
     state.change({"camera.inclination_deg": 20.0})
-    assert remarks(state) == {"physics": " · camera moved", "look": ""}
+    assert remarks(state) == {"physics": " · moved", "look": ""}
     commands.toggle_spin(state)
     assert remarks(state) == {"physics": " · modified", "look": ""}
     commands.toggle_spin(state)
