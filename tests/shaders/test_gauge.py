@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import math
 
+import pytest
+
+from blackhole_gl import plan
+from blackhole_gl.measure import timing
 from blackhole_gl.measure.gauge import Gauged, gauging
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene, presets
@@ -39,6 +43,19 @@ def test_a_camera_at_infinity_has_no_error_in_pixels(renderer: Renderer) -> None
     found = gauged(renderer, scene_of(camera__distance=math.inf, camera__yaw_deg=0.0))
     assert math.isnan(found.error_px) and found.cost > 1.0 and found.wrong_fates < 0.01
     assert str(found).startswith("no error in pixels")
+
+
+def test_a_yardstick_that_is_held_up_once_makes_nothing_cheap(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every other flat frame takes a hundred times as long."""
+    flat = plan.plan(timing.flat_scene(scene_of()))
+    calls = []
+
+    def time_trace(made: plan.Plan, size: tuple[int, int]) -> float:
+        calls.append(made)
+        return 3.0 if made is not flat else 100.0 if calls.count(flat) % 3 else 1.0
+
+    monkeypatch.setattr(renderer, "time_trace", time_trace)
+    assert gauged(renderer, scene_of()).cost == 3.0
 
 
 def test_straight_rays_cost_one_flat_frame(renderer: Renderer) -> None:
