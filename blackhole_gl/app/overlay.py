@@ -43,7 +43,7 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
         imgui.text_colored(theme.QUIET, f"{picture.rays.steps:.1f} steps a ray")
         colour = theme.ERROR if picture.rays.unresolved else theme.QUIET
         imgui.text_colored(colour, f"{picture.rays.unresolved} unresolved rays")
-    if report.stops:
+    if round(report.stops, 1):
         imgui.text_colored(theme.QUIET, f"exposure {report.stops:+.1f} stops")
     for warning in report.warnings:
         imgui.text_colored(theme.DEPARTS, warning.partition(",")[0].partition(":")[0])
