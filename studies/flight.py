@@ -101,11 +101,13 @@ class Pair:
 
 
 def drawn(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int]) -> Pair:
-    """`scene` at scene time `time`, refined and exact.
+    """`scene` at scene time `time`, refined and exact, with one ray in the pixels at edges and as exposed: a moving picture has fewer there, and is metered
+    now and then.
 
     Raises:
         ValueError: its rays are not refined.
     """
+    scene = scene.with_values({"rays.edges": 1, "post.exposure_mode": "fixed"})
     renderer.hit_map.forget()
     if renderer.render(scene, time, size, progressive=True).sharp:
         raise ValueError("every pixel has a ray of its own: there is no refinement to measure")

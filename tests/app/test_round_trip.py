@@ -36,7 +36,7 @@ def test_what_is_shared_opens_as_the_same_picture(renderer: Renderer, tmp_path, 
             scene_files.save(state)
             (path,) = presets.user_presets_dir().glob("*.toml")
         else:
-            scene_files.save_picture(state, shown, tmp_path)
+            scene_files.save_picture(state, shown, None, tmp_path)
             (path,) = tmp_path.glob("*.png")
         opened.file = str(path)
         if by == "command line":

@@ -16,6 +16,7 @@ from blackhole_gl.scene import Scene, presets
 
 FINER = 6
 SIZE = (640, 360)
+SMALL = (240, 136)
 
 SMOOTH = {"disk.turbulence": False, "sky.enabled": False}
 SCENES = {
@@ -149,12 +150,12 @@ def test_odd_numbers_count_as_the_next_even_one(renderer: Renderer) -> None:
 def test_silhouettes_of_things_are_edges(renderer: Renderer) -> None:
     """A ring in a tilted plane hides the sky, and has no cover of its own that is smooth."""
     scene = presets.load(["kerr"], {**SMOOTH, "disk.enabled": False, "things.ring.kind": "annulus"})
-    fine = reference(renderer, scene, SIZE)
+    fine = reference(renderer, scene, SMALL)
     pictures = []
     for edges in (1, 4):
-        renderer.render(scene.with_values({"rays.edges": edges}), 1.0, SIZE)
+        renderer.render(scene.with_values({"rays.edges": edges}), 1.0, SMALL)
         pictures.append(displayed(renderer.radiance()))
-    edges = edges_of(renderer, SIZE)
+    edges = edges_of(renderer, SMALL)
     one, several = (np.abs(picture - fine)[edges].mean() for picture in pictures)
     assert edges.any() and several < 0.2 * one
 

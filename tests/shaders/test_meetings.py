@@ -191,7 +191,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import presets
 
 renderer = Renderer(create_headless())
-quiet = {"rays.lensing": False, "hole.spin": 0.0, "disk.enabled": False, "sky.enabled": False, "post.bloom": False, "camera.fov_deg": 60.0}
+quiet = {"rays.lensing": False, "hole.spin": 0.0, "disk.enabled": False, "sky.enabled": False, "post.bloom": False, "camera.fov_deg": 60.0, "rays.edges": 1}
 for distance in (20.0, 2.5):  # outside of it, and inside
     scene = presets.load(["kerr"], {**quiet, "media.haze.kind": "fog", "camera.distance": distance})
     renderer.render(scene, 0.0, (90, 60))

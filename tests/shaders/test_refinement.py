@@ -119,7 +119,7 @@ def test_at_rest_it_sharpens_to_the_exact_map(renderer: Renderer) -> None:
 
 def test_what_is_sharpened_is_seen_at_once(renderer: Renderer) -> None:
     """The rows traced so far are those of the exact picture, also where linear interpolation did before (shaders/refine_classes.frag)."""
-    scene = _scene(**{"post.bloom": False})
+    scene = _scene(**{"post.bloom": False, "rays.edges": 1})
     renderer.hit_map.forget()
     renderer.render(scene, 0.0, SIZE)
     exact = renderer.radiance()
