@@ -38,7 +38,8 @@ def test_disk_and_sky_are_drawn_wherever_there_is_light(renderer: Renderer, view
 
     Half floats: 2⁻¹⁰. The method is stated: without a disk the plan may choose another.
     """
-    clear = {**VIEWS[view], "post.exposure_mode": "fixed", "disk.compositing": "additive", "rays.model": "kerr", "rays.integrator": "rk4", "rays.step_angle": 0.2}
+    stated = {"rays.model": "kerr", "rays.integrator": "rk4", "rays.step_angle": 0.2}
+    clear = {**VIEWS[view], **stated, "post.exposure_mode": "fixed", "disk.compositing": "additive"}
     both = _radiance(renderer, clear)
     disk, sky = _radiance(renderer, {**clear, "sky.enabled": False}), _radiance(renderer, {**clear, "disk.enabled": False})
     assert disk.max() > 0.0 and sky.max() > 0.0
