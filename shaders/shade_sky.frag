@@ -1,6 +1,6 @@
 #version 330 core
-// Hit map → the sky's linear, scene-referred radiance (Rec. 709 primaries), alpha 1. Drawn behind the disk by blending, and
-// only where shade_classes.frag found that light comes from the sky.
+// Hit map → the sky's linear, scene-referred radiance (Rec. 709 primaries). Drawn behind the disk by blending, and
+// only where shade_classes.frag found that light comes from the sky. Alpha: 1 where star_layer.frag has stars to draw, else 0.
 //
 // Contract of a sky (shaders/skies/<key>.glsl):
 //   vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy)
@@ -12,6 +12,16 @@
 //     energy     E_observer/E_infinity of the light (blue-shift of a low observer); black bodies look T·energy hot and
 //                energy⁴ as bright;
 //     answer     radiance, averaged over the footprint.
+//   A sky with points of light in it, which a picture that is drawn coarse and shown enlarged would smear, says in its header how many there may be in a
+//   pixel (`stars = 4`), SKY_STARS here. Instead it has
+//     vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near)
+//       finer       1, or side of a pixel shown over the pixel's. Below 1 the points that can be seen singly with the footprint of a pixel shown are left
+//                   out;
+//       stars_near  above 0 if one of them is within 0.72 pixels of the middle;
+//     vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star)
+//       right, up   of a pixel shown;
+//       answer      the light of point n < SKY_STARS of those near, radiance × sr, 0 where it is not there;
+//       star        unit vector to it, and its radius in rad.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -19,6 +29,10 @@
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 #slot sky
+
+#if SKY_STARS
+uniform float finer;
+#endif
 
 out vec4 radiance;
 
@@ -37,6 +51,12 @@ void main() {
     up = whole_up ? up : cross(direction, right);
 
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
+#if SKY_STARS
+    float stars_near;
+    vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy, finer, stars_near);
+    radiance = vec4(clamp(light, 0.0, BRIGHTEST), stars_near > 0.0 ? escaped : 0.0);
+#else
     vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy);
-    radiance = vec4(clamp(light, 0.0, BRIGHTEST), 1.0);
+    radiance = vec4(clamp(light, 0.0, BRIGHTEST), 0.0);
+#endif
 }

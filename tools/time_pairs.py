@@ -3,6 +3,7 @@
     LP_NUM_THREADS=1 python tools/time_pairs.py [--size 1280x720] [--rounds 40] [--preset kerr]
 
 glow: a picture at rest while time runs, its glow made for every second frame, against one made for each.
+stars: a picture of half the size under a moving camera, enlarged with its stars drawn over it, against one that is only enlarged.
 """
 
 from __future__ import annotations
@@ -11,9 +12,13 @@ import argparse
 import time as clock
 from collections.abc import Callable
 from statistics import median, quantiles
+from typing import Any
 
+from blackhole_gl.app.area import Area
+from blackhole_gl.app.targets import Drawing, Targets
 from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.frame import FrameReport, Renderer
+from blackhole_gl.render.target import Target
 from blackhole_gl.scene import Scene, presets
 
 FRAME_S = 1.0 / 30.0  # between frames, of the window's time
@@ -29,6 +34,32 @@ def glow(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frame
             renderer.render(scene, FRAME_S * scene.playback.rate * (2 * number + k), size, glow_may_last=lasts)
 
     return lambda number: frames(number, lasts=True), lambda number: frames(number, lasts=False)
+
+
+def stars(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """The window's own way of showing such a picture, and the same without the layer."""
+    area = Area(0, 0, *size)
+    window = Target.of(renderer.ctx, [renderer.ctx.texture(size, 4)])
+    with_stars, without = Targets(renderer.ctx, renderer), Targets(renderer.ctx, _NoStars(renderer))
+
+    def frame(number: int, targets: Targets, shift_deg: float) -> None:
+        turned = scene.with_values({"camera.inclination_deg": 70.0 + 0.5 * (number % 20) + shift_deg})
+        targets.render_into(window.frame, area, Drawing(turned, FRAME_S * number, area.scaled(0.5), area.size, progressive=True, passes=False))
+
+    return lambda number: frame(number, with_stars, 0.0), lambda number: frame(number, without, 0.01)  # another view, or it would keep the rays
+
+
+class _NoStars:
+    """A renderer that draws its stars with the rest."""
+
+    def __init__(self, renderer: Renderer):
+        self._renderer = renderer
+
+    def render(self, *given: Any, shown: object, **named: Any) -> FrameReport:
+        return self._renderer.render(*given, **named)
+
+    def draw_stars(self, *given: object) -> None:
+        pass
 
 
 def spent(renderer: Renderer, frames: Frames, number: int) -> float:
@@ -48,7 +79,7 @@ def main() -> None:
     given = parser.parse_args()
     width, height = (int(side) for side in given.size.split("x"))
     renderer, scene = Renderer(create_headless()), presets.load(given.preset or ["kerr"])
-    for compare in (glow,):
+    for compare in (glow, stars):
         new, old = compare(renderer, scene, (width, height))
         taken = [(spent(renderer, new, number), spent(renderer, old, number)) for number in range(-3, given.rounds)][3:]
         low, _, high = quantiles((a / b for a, b in taken), n=4)

@@ -126,13 +126,13 @@ class Picture:
         progressive = step.rehearsal
         if progressive is None:
             progressive = camera_moving or not (exact or self.is_current and self.is_sharp)
-        drawing = Drawing(step.drawn, time, area.scaled(scale), progressive, passes=moving and not camera_moving)
+        drawing = Drawing(step.drawn, time, area.scaled(scale), area.size, progressive, passes=moving and not camera_moving)
         if exact:
             self._adaptation.forget()
         if drawing == self._made_of and self.is_sharp and self.is_settled and not step.rehearses:
             return self._improve(drawing)
-        fills_window = moving and self._readiness.is_over and drawing.size == area.size
-        report = self._render(step, drawing, area, window if fills_window else None, now)
+        passes_by = moving and self._readiness.is_over
+        report = self._render(step, drawing, area, window if passes_by else None, now)
         return report is not None and self._take(report, step, scale)
 
     def draw(self, window: moderngl.Framebuffer, area: Area) -> None:
@@ -196,7 +196,8 @@ class Picture:
 
     def _take(self, report: Any, step: Step, scale: float) -> bool:
         """Takes in what the picture of `step` turned out as, and what it means for those to come. Returns whether it is shown."""
-        self._readiness.drew(step)
+        if self.report is not None:  # else it is the first picture, drawn with the fewest programs: its rehearsal follows
+            self._readiness.drew(step)
         self._rays_stale |= report.traced
         if step.rehearses:
             self._pace.pause()

@@ -11,6 +11,7 @@ from functools import cache
 
 from ..render.context import create_headless
 from ..render.frame import Renderer
+from ..render.target import Target
 from ..scene import Scene
 from ..worker import Worker
 
@@ -51,11 +52,15 @@ def _renderer() -> None:
 
 
 def _draw(scene: Scene, size: tuple[int, int]) -> None:
-    """Draws `scene` in every way a window does: rays interpolated or not, a sky that is kept or not."""
+    """Draws `scene` in every way a window does: rays interpolated or not, a sky that is kept or not, stars drawn apart."""
     renderer = _shared()
+    shown = 2 * size[0], 2 * size[1]
+    enlarged = Target.of(renderer.ctx, [renderer.ctx.texture(shown, 4)])
     for _ in range(2):  # Mesa stores one variant of a program for each time that it is compiled, and some are drawn with in two
         for progressive in (True, False, False):
-            renderer.render(scene, 0.0, size, measure=True, progressive=progressive)
+            renderer.render(scene, 0.0, size, measure=True, progressive=progressive, shown=shown)
+            renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         renderer.programs.release()
         renderer.hit_map.forget()
+    enlarged.release()
     clock.sleep(_UNTIL_WRITTEN_S)

@@ -30,8 +30,13 @@ class Carried:
     vertex: str
 
 
-def carry(blocks: Sequence[Block], words: Words) -> Carried:
-    """The numbers of `blocks` that `words` name: those that are run as inputs as far as there is room; the fragment shader reads the rest from the blocks."""
+def carry(blocks: Sequence[Block], words: Words, own: frozenset[str] = frozenset()) -> Carried:
+    """The numbers of `blocks` that `words` name: those that are run as inputs as far as there is room; the fragment shader reads the rest from the blocks.
+
+    Args:
+        words: of the fragment shader.
+        own: identifiers of the vertex shader, which reads its own numbers from the blocks.
+    """
     mentioned = {name: kind for block in blocks for name, kind in block.members if name in words.compiled}
     used = sorted(((name, kind) for name, kind in mentioned.items() if name in words.run), key=lambda member: -_FLOATS[member[1]])
     room, taken = 4 * MOST_INPUTS, 0
@@ -49,7 +54,7 @@ def carry(blocks: Sequence[Block], words: Words) -> Carried:
     kept = [block for block in blocks if any(name in left_out for name, _ in block.members)]
     fragment = [block.glsl for block in kept]
     fragment += [f"flat in vec4 carried_{k};" for k in range(count)] + defines
-    vertex = [block.glsl for block in blocks if any(name in words.run for name, _ in block.members)]
+    vertex = [block.glsl for block in blocks if any(name in words.run | own for name, _ in block.members)]
     vertex += [f"flat out vec4 carried_{k};" for k in range(count)] + ["void carry() {", *moves, "}"]
     return Carried("\n".join(fragment), "\n".join(vertex))
 

@@ -168,6 +168,7 @@ class _Places:
                 self._frame.release()
             self._frame = self._ctx.framebuffer([target.texture], self._depth)
             self._frame.depth_mask = False
+            self._frame.color_mask = True, True, True, False  # alpha says where single stars are left out, which the pixel's own ray tells
         return self._frame
 
     def release(self) -> None:

@@ -22,9 +22,11 @@ from .pixel_values import PixelValues
 from .post import PostPass
 from .programs import Programs
 from .shading import ShadePass
+from .star_layer import StarLayer
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
+from .uniforms import stars_a_pixel
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
@@ -86,6 +88,8 @@ class Renderer:
         self._views = diagnostics.ViewPass(ctx, self.programs, self._temperatures)
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
         self._post = PostPass(ctx, self.programs)
+        self._stars = StarLayer(ctx)
+        self._last: FrameInputs | None = None
         self._radiance: Target | None = None
         self._picture: Target | None = None
 
@@ -100,6 +104,7 @@ class Renderer:
         measure: bool = False,
         progressive: bool = False,
         glow_may_last: bool = False,
+        shown: tuple[int, int] | None = None,
     ) -> FrameReport:
         """Draws `scene` at scene time `time` (r_s/c).
 
@@ -111,13 +116,14 @@ class Renderer:
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
                 further call for the same hits makes a slice of the picture exact, until the report says that it is sharp.
             glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``.
+            shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
 
         Raises:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
             ShaderError: a shader has a mistake.
         """
         stamps = [clock.perf_counter()]
-        inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size)
+        inputs = self._last = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
@@ -127,6 +133,21 @@ class Renderer:
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan)
+
+    def draw_stars(self, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
+        """Adds the single stars that the last `render` left out to its picture enlarged, which `viewport` (x, y, width, height) of `target` holds.
+
+        To come right after that `render`, with nothing drawn between.
+
+        Raises:
+            RuntimeError: none has been drawn.
+        """
+        if self._last is None:
+            raise RuntimeError("no picture has been drawn yet: `render` comes first")
+        scene = self._last.plan.scene
+        if stars_a_pixel(scene) and not diagnostics.is_on(scene) and min(self._last.finer) < 1.0:
+            stars, samplers = self._shade.stars(self._last, self.hit_map)
+            self._stars.draw(stars, {**samplers, **self._post.samplers}, _drawn(self._radiance), target, viewport)
 
     def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
         """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd
@@ -274,6 +295,7 @@ class Renderer:
         self.exposure.release()
         self._shade.release()
         self._post.release()
+        self._stars.release()
         for tables in (self._tables, self._reference_tables, self._temperatures):
             tables.release()
         for target in (self._radiance, self._picture):

@@ -21,6 +21,7 @@ class FrameInputs:
         size: (width, height) in pixels of what is drawn.
         picture: (width, height) in pixels of the whole picture that it is a part of.
         offset: of the drawn part in the picture, in pixels from the bottom left, with the shift of the rays inside their pixels.
+        shown: (width, height) in pixels that the picture is to be shown with; None: its own.
     """
 
     plan: Plan
@@ -28,11 +29,20 @@ class FrameInputs:
     size: tuple[int, int]
     picture: tuple[int, int]
     offset: tuple[float, float] = (0.0, 0.0)
+    shown: tuple[int, int] | None = None
 
     @classmethod
-    def whole(cls, plan: Plan, time: float, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> FrameInputs:
-        """A whole picture of `size`, its rays shifted by `offset` pixels."""
-        return cls(plan, time, size, size, offset)
+    def whole(
+        cls, plan: Plan, time: float, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0), shown: tuple[int, int] | None = None
+    ) -> FrameInputs:
+        """A whole picture of `size`, its rays shifted by `offset` pixels, to be `shown` with another."""
+        return cls(plan, time, size, size, offset, shown)
+
+    @property
+    def finer(self) -> tuple[float, float]:
+        """Sides of a pixel shown over those of the picture's own, at most 1."""
+        shown = self.shown or self.picture
+        return min(self.picture[0] / shown[0], 1.0), min(self.picture[1] / shown[1], 1.0)
 
     def with_plan(self, plan: Plan) -> FrameInputs:
         """The same frame by another plan."""

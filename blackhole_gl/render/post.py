@@ -45,7 +45,11 @@ class _Level:
 
 
 class PostPass:
-    """Draws shaders/post/*.frag and owns the levels of the bloom and the table of the tone curve. With bloom off it has no levels."""
+    """Draws shaders/post/*.frag and owns the levels of the bloom and the table of the tone curve. With bloom off it has no levels.
+
+    Attributes:
+        samplers: what the last picture was developed with, by the names in shaders.
+    """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
@@ -54,6 +58,7 @@ class PostPass:
         self._up: list[_Level] = []
         self._tone: Target | None = None
         self._tone_key: tuple | None = None
+        self.samplers: dict[str, moderngl.Texture] = {}
         self._lasting: FrameInputs | None = None  # the frame that the glow was made of, where the next one may have it too
 
     def draw(
@@ -72,13 +77,13 @@ class PostPass:
         """
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
         radiance.repeat_x = radiance.repeat_y = False
-        samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
+        self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
         if inputs.plan.scene.post.bloom:
-            samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
+            self.samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
         if viewport[2:] == radiance.size:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
         tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
-        tone_map.sample(samplers)
+        tone_map.sample(self.samplers)
         tone_map.set(target_origin=viewport[:2], target_texel=_texel(viewport[2:]))
         target.use()
         outer = target.viewport

@@ -7,7 +7,7 @@ import time as clock
 from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
 
@@ -30,6 +30,8 @@ _SERIALS = count(1)
 RAY_SLOTS = ("ray_model", "integrator", "step_control")
 SHADE_SLOTS = ("disk_layer", "sky")
 MET_SLOTS = ("thing", "medium")
+
+_VERTEX = {"star_layer.frag": "star_layer.vert"}  # of programs that draw points; all others draw a triangle
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
@@ -117,6 +119,33 @@ class Draw:
         self._buffers.bind(self.inputs)
         self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
 
+    def draw_points(self, count: int) -> None:
+        """Draws `count` points, by a program whose vertex shader places them."""
+        self._buffers.bind(self.inputs)
+        self.compiled.triangle.render(moderngl.POINTS, vertices=count)
+
+
+@dataclass(frozen=True, eq=False)
+class _Texts:
+    """What a program is made of; equal where the driver is given the same."""
+
+    vertex: Composed
+    fragment: Composed
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Texts) and (self.vertex.text, self.fragment.text) == (other.vertex.text, other.fragment.text)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.vertex.text, self.fragment.text))
+
+    def explain(self, log: str) -> ShaderError:
+        """The driver's compile `log` as an error that names the author's file and line."""
+        return (self.vertex if "vertex_shader" in log else self.fragment).explain(log)
+
 
 class Programs:
     """The programs of one GL context, kept by the structure of what they draw: a slider never compiles anything.
@@ -135,8 +164,8 @@ class Programs:
         self.deadline = math.inf
         self.compiled = 0
         self._buffers = UniformBuffers(ctx)
-        self._composed: OrderedDict[tuple, Composed] = OrderedDict()
-        self._kept: OrderedDict[str, Compiled] = OrderedDict()
+        self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
+        self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
         self._asked: tuple[Plan, _Structure] | None = None
         self._seen = self._times()
 
@@ -193,34 +222,29 @@ class Programs:
         self._asked = plan, found
         return found
 
-    def _compose(self, path: str, structure: _Structure, extra: tuple) -> Composed:
+    def _compose(self, path: str, structure: _Structure, extra: tuple) -> _Texts:
         switches = dict(structure.switches + extra)
         blocks = uniforms.blocks()
-        return compose(
-            self.roots,
-            path,
-            chosen=dict(structure.chosen),
-            switches=switches,
-            blocks=lambda words: carry(blocks, words).fragment,
-            instances=structure.instances,
-        )
+        composed = partial(compose, self.roots, chosen=dict(structure.chosen), switches=switches, instances=structure.instances)
+        fragment = composed(path, blocks=lambda words: carry(blocks, words).fragment)
+        vertex = composed(_VERTEX.get(path, "fullscreen.vert"), blocks=lambda own: carry(blocks, fragment.words, own.run).vertex)
+        return _Texts(vertex, fragment)
 
-    def _compiled(self, composed: Composed, *, by: float) -> Compiled:
-        if composed.text not in self._kept:
+    def _compiled(self, texts: _Texts, *, by: float) -> Compiled:
+        if texts not in self._kept:
             if clock.perf_counter() > by:
                 raise Unready("the programs of this scene are still being compiled")
-            self._kept[composed.text] = self._compile(composed)
+            self._kept[texts] = self._compile(texts)
             if len(self._kept) > MOST_KEPT:
                 self._kept.popitem(last=False)[1].release()
-        self._kept.move_to_end(composed.text)
-        return self._kept[composed.text]
+        self._kept.move_to_end(texts)
+        return self._kept[texts]
 
-    def _compile(self, composed: Composed) -> Compiled:
-        vertex = compose(self.roots, "fullscreen.vert", blocks=lambda _: carry(uniforms.blocks(), composed.words).vertex).text
+    def _compile(self, texts: _Texts) -> Compiled:
         try:
-            program = self.ctx.program(vertex_shader=vertex, fragment_shader=composed.text)
+            program = self.ctx.program(vertex_shader=texts.vertex.text, fragment_shader=texts.fragment.text)
         except moderngl.Error as error:
-            raise composed.explain(str(error)) from None
+            raise texts.explain(str(error)) from None
         for block in uniforms.blocks():
             member = program.get(block.name, None)
             if isinstance(member, moderngl.UniformBlock):

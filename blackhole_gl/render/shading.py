@@ -10,6 +10,7 @@ import numpy as np
 from ..glsl.declared import PixelClass
 from .hit_map import HitMap
 from .inputs import FrameInputs
+from .post import TONE_TABLE
 from .programs import SHADE_SLOTS, Draw, Programs, chosen
 from .tables import Tables
 from .target import Target
@@ -59,7 +60,8 @@ class ShadePass:
         self._sky_kept = False
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
-        """Shades `hit_map` into `target` (RGBA16F, of the map's size; its alpha is left without meaning)."""
+        """Shades `hit_map` into `target` (RGBA16F, of the map's size). Alpha: the share of the sky's light that comes through, where single stars were left
+        out because the picture is to be shown enlarged; else 0, or without meaning in a picture that is not."""
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
         frame = self._attached(target, classes)
         ctx = self._ctx
@@ -69,7 +71,9 @@ class ShadePass:
             frame.use()
             ctx.enable(moderngl.BLEND)
             # The disk, things and media, and what they let through of the sky behind them: of all colours alike, or of each its own.
-            ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
+            # Alpha becomes the share of the sky's light that is left, where stars may be.
+            behind = _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
+            ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
             disk = self._prepared("shade_matter.frag", inputs, hit_map, hit_map.switches())
             self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
@@ -89,7 +93,7 @@ class ShadePass:
             return
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        key = (sky.serial, self._classes_key, inputs.plan.turn_deg, scene.sky, parameters)
+        key = (sky.serial, self._classes_key, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(frame, inputs, hit_map)
@@ -103,29 +107,42 @@ class ShadePass:
 
     def _draw_sky(self, frame: moderngl.Framebuffer, inputs: FrameInputs, hit_map: HitMap) -> None:
         self._clear(frame)
-        self._draw_classes(self._prepared("shade_sky.frag", inputs, hit_map, hit_map.switches()), ">", _SKY)
+        self._draw_classes(self._prepared_sky(inputs, hit_map, hit_map.switches()), ">", _SKY)
         where_flat = hit_map.switches_where_flat()
         if where_flat is not None:
-            self._draw_classes(self._prepared("shade_sky.frag", inputs, hit_map, where_flat), "<", _FLAT_SKY)
+            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), "<", _FLAT_SKY)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
         frame.depth_mask = False
         frame.color_mask = True, True, True, True
-        frame.clear(0.0, 0.0, 0.0, 1.0)
+        frame.clear(0.0, 0.0, 0.0, 0.0)
 
     def release(self) -> None:
         """Gives the GL objects back."""
         self._release_classes()
 
+    def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
+        prepared = self._prepared("shade_sky.frag", inputs, hit_map, switches)
+        if "finer" in prepared.program:  # a sky with stars
+            prepared.set(finer=min(inputs.finer))
+        return prepared
+
+    def stars(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[Draw, dict[str, moderngl.Texture]]:
+        """What draws the single stars of a picture that is to be shown enlarged, and was drawn without them; its samplers are still to be bound."""
+        return self._programs.get("star_layer.frag", inputs, {**hit_map.switches(), **TONE_TABLE}), self._samplers(inputs, hit_map)
+
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
-        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
-        things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
-        prepared.sample({**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)})
+        prepared.sample(self._samplers(inputs, hit_map))
         if "block_side" in prepared.program:
             prepared.set(block_side=float(hit_map.block_side))
         return prepared
+
+    def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> dict[str, moderngl.Texture]:
+        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
+        things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
+        return {**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
         """Draws where the pixel's class compares with `depth`: ``>`` where it is below, ``<`` where it is beyond; inside `box`, if one is given."""

@@ -170,6 +170,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN}
     found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
+    found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key) is True)
@@ -177,6 +178,11 @@ def switches(plan: Plan) -> dict[str, int]:
         value = plan.scene.get(key)
         found.update({name: int(value == option) for option, name in names})
     return found
+
+
+def stars_a_pixel(scene: Scene) -> int:
+    """How many points of light the sky of `scene` may have in a pixel; 0 where it draws none apart."""
+    return catalogue.plug_ins("sky")[scene.sky.model].traits.stars if scene.sky.enabled else 0
 
 
 @cache

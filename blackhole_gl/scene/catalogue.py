@@ -19,7 +19,7 @@ from .headers import CatalogueError
 from .plug_in import KIND, SLOTS, SWITCH, PlugIn, Slot
 from .schema import Field, nearest
 from .sections import declared
-from .traits import DiskLayerTraits, IntegratorTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits
+from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, RayModelTraits, SkyTraits, StepControlTraits, ThingTraits
 
 __all__ = [
     "KIND", "SLOTS", "SWITCH", "Catalogue", "CatalogueError", "PlugIn", "Slot",
@@ -51,7 +51,9 @@ def plug_ins(slot: Literal["disk_layer"]) -> Mapping[str, PlugIn[DiskLayerTraits
 @overload
 def plug_ins(slot: Literal["thing"]) -> Mapping[str, PlugIn[ThingTraits]]: ...
 @overload
-def plug_ins(slot: Literal["sky", "medium"]) -> Mapping[str, PlugIn[NoTraits]]: ...
+def plug_ins(slot: Literal["sky"]) -> Mapping[str, PlugIn[SkyTraits]]: ...
+@overload
+def plug_ins(slot: Literal["medium"]) -> Mapping[str, PlugIn[MediumTraits]]: ...
 @overload
 def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]: ...
 def plug_ins(slot: str) -> Mapping[str, PlugIn[Any]]:

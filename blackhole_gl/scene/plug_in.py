@@ -15,7 +15,7 @@ from . import headers, parameters
 from .headers import CatalogueError
 from .schema import Field, nearest, number_of
 from .tables import Number, Table
-from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, NoTraits, RayModelTraits, StepControlTraits, ThingTraits, Traits
+from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, RayModelTraits, SkyTraits, StepControlTraits, ThingTraits, Traits
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Slot:
 
     folder: str
     section: str
-    traits: type[Traits] = NoTraits
+    traits: type[Traits]
     of_kinds: bool = False
 
 
@@ -41,7 +41,7 @@ SLOTS: Mapping[str, Slot] = MappingProxyType(
         "integrator": Slot("integrators", "rays", IntegratorTraits),
         "step_control": Slot("step_controls", "rays", StepControlTraits),
         "disk_layer": Slot("disks", "disk", DiskLayerTraits),
-        "sky": Slot("skies", "sky"),
+        "sky": Slot("skies", "sky", SkyTraits),
         "thing": Slot("things", "things", ThingTraits, of_kinds=True),
         "medium": Slot("media", "media", MediumTraits, of_kinds=True),
     }

@@ -135,8 +135,14 @@ class MediumTraits:
 
 
 @dataclass(frozen=True)
-class NoTraits:
-    """Of slots whose plug-ins have nothing to say but what people read, and their parameters."""
+class SkyTraits:
+    """A sky.
+
+    Attributes:
+        stars: how many points of light it may have in a pixel, which are drawn apart where a coarse picture would smear them (shaders/shade_sky.frag).
+    """
+
+    stars: Annotated[int, Between(0, 16)] = 0
 
 
-Traits = RayModelTraits | IntegratorTraits | StepControlTraits | DiskLayerTraits | ThingTraits | MediumTraits | NoTraits
+Traits = RayModelTraits | IntegratorTraits | StepControlTraits | DiskLayerTraits | ThingTraits | MediumTraits | SkyTraits

@@ -4,22 +4,16 @@
 #blocks
 #include "common/tone_table.glsl"
 #include "common/tone.glsl"
+#include "common/developed.glsl"
 
 uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not: docs/llvmpipe.md, texels
 #if POST_BLOOM
 uniform sampler2D glow;
 #endif
-uniform sampler2D tone_table;  // post/tone_table.frag
 uniform vec2 target_origin; // lower left pixel of the picture in the target
 uniform vec2 target_texel;  // 1 / size of the picture in the target
 
 out vec4 colour;
-
-const vec2 FROM_BYTES = vec2(1.0, 1.0 / 255.0);
-
-float curved(float light) {
-    return min(dot(texelFetch(tone_table, tone_table_place(light), 0).rg, FROM_BYTES), 1.0); // 255 × (1/255) may exceed 1
-}
 
 // Noise of triangular distribution, −1…1, for each channel; a fixed function of the pixel. The difference of two gradient noises
 // (J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014), each shifted from channel to channel:
@@ -36,14 +30,7 @@ void main() {
 #if POST_BLOOM
     light += post_bloom_intensity * textureLod(glow, pixel * target_texel, 0.0).rgb;
 #endif
-#if TONE_MIXES
-    light = tone_mixed(light);
-#endif
-    vec3 code = vec3(curved(light.r), curved(light.g), curved(light.b));
-#if TONE_MIXES
-    code = tone_unmixed(code);
-    code = vec3(srgb_code(code.r), srgb_code(code.g), srgb_code(code.b));
-#endif
+    vec3 code = developed(light);
 #if POST_DITHER
     // One grey level at most, less near black and white, so that both stay clean.
     code += dither_noise(pixel) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));

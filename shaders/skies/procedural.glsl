@@ -4,6 +4,7 @@ summary = "Procedural stars with a natural distribution of brightness and colour
 source = "own; number of stars against flux N(>F) ∝ F^-4/3, a little flatter than Euclid's 3/2, as in the real sky"
 slot = "sky"
 rank = 10
+stars = 4
 
 [parameters.star_brightness]
 default = 1.0
@@ -126,55 +127,115 @@ struct StarLight {
     float flux;  // of single stars, in kernels
     float heat;  // the same, times K
     float haze;  // of the stars too dense to be seen singly, where the richness is 1, per sr
+    float near;  // above 0 if there is a single star within `room`
 };
 
-// Adds one grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3.
-// `row`: where they begin in `star_cells`. `spread`: the footprint over the star's margin in a grid with one cell across a face.
-void add_star_grid(inout StarLight light, SkySpot spot, SkyPlace at, float spread, float cells, int row, float low, float high) {
-    float tail = pow(low / high, 4.0 / 3.0);
-    float mean_flux = 4.0 * (low - high * tail) / (1.0 - tail);
-    float haze = clamp(spread * (5.0 * cells) - 4.0, 0.0, 1.0); // smoothstep(0.8, 1, …), which would divide by a constant
-    haze *= haze * (3.0 - 2.0 * haze);
+// A grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3. `row`: where they begin in `star_cells`.
+struct StarGrid {
+    float cells;
+    float row;
+    float low, high;
+};
 
-    vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5);
-    vec4 star = textureLod(star_cells, (cell + vec2(at.face * cells, float(row))) * STAR_TEXEL, 0.0);
-    vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
-    float fall = max(1.0 - dot(d, d), 0.0); // ∫ fall³ over the disc of radius 2 is π
-    float flux = (star.w - haze * star.w) * fall * fall * fall;
-    light.flux += flux;
-    light.heat += flux * (32.0 * float(floatBitsToInt(star.w) & 1023));
-    light.haze += haze * (mean_flux * cells * cells);
+const StarGrid STAR_GRIDS[4] = StarGrid[](
+    StarGrid(7.0, 0.0, 1.0, 20.0), StarGrid(16.0, 7.0, 0.2536, 1.0), StarGrid(34.0, 23.0, 0.0783, 0.2536), StarGrid(60.0, 57.0, 0.0309, 0.0783));
+
+// How much of the grid is a haze. `spread`: the footprint over the star's margin in a grid with one cell across a face.
+float grid_haze(StarGrid grid, float spread) {
+    float haze = clamp(spread * (5.0 * grid.cells) - 4.0, 0.0, 1.0); // smoothstep(0.8, 1, …), which would divide by a constant
+    return haze * haze * (3.0 - 2.0 * haze);
 }
 
-vec3 galaxy_radiance(SkySpot spot) {
-    float height = dot(spot.centre, GALAXY_POLE);
-    float longitude = turns(dot(spot.centre, GALAXY_CENTRE), dot(spot.centre, cross(GALAXY_POLE, GALAXY_CENTRE)));
-    float reach = sqrt(spot.reach2);
+// The star in the cell of `at`: unit vector and flux.
+vec4 grid_star(StarGrid grid, SkyPlace at) {
+    vec2 cell = min(at.place * (0.5 * grid.cells) + 0.5 * grid.cells, grid.cells - 0.5);
+    return textureLod(star_cells, (cell + vec2(at.face * grid.cells, grid.row)) * STAR_TEXEL, 0.0);
+}
+
+float star_kelvin(float flux) {
+    return 32.0 * float(floatBitsToInt(flux) & 1023);
+}
+
+float sky_spread(SkySpot spot, SkyPlace at) {
+    return (2.0 / STAR_MARGIN) * sqrt(spot.reach2 * at.narrowness);
+}
+
+// `room`: square of a distance, in half kernels.
+void add_star_grid(inout StarLight light, StarGrid grid, SkySpot spot, SkyPlace at, float spread, float room) {
+    float tail = pow(grid.low / grid.high, 4.0 / 3.0);
+    float mean_flux = 4.0 * (grid.low - grid.high * tail) / (1.0 - tail);
+    float haze = grid_haze(grid, spread);
+
+    vec4 star = grid_star(grid, at);
+    vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
+    float away2 = dot(d, d);
+    float fall = max(1.0 - away2, 0.0); // ∫ fall³ over the disc of radius 2 is π
+    float single = star.w - haze * star.w;
+    float flux = single * fall * fall * fall;
+    light.flux += flux;
+    light.heat += flux * star_kelvin(star.w);
+    light.haze += haze * (mean_flux * grid.cells * grid.cells);
+    light.near = max(light.near, single * (room - away2));
+}
+
+StarLight star_light(SkySpot spot, float room) {
+    SkyPlace at = sky_place(spot.centre);
+    float spread = sky_spread(spot, at);
+    StarLight stars = StarLight(0.0, 0.0, 0.0, 0.0);
+    add_star_grid(stars, STAR_GRIDS[0], spot, at, spread, room);
+    add_star_grid(stars, STAR_GRIDS[1], spot, at, spread, room);
+    add_star_grid(stars, STAR_GRIDS[2], spot, at, spread, room);
+    add_star_grid(stars, STAR_GRIDS[3], spot, at, spread, room);
+    // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
+    stars.haze *= star_richness(spot.centre) * (0.5625 / 1.4831);
+    return stars;
+}
+
+vec3 star_radiance(StarLight stars, float kernel, float energy) {
+    float power = stars.flux * kernel + stars.haze;
+    vec3 colour = blackbody_colour((stars.heat * kernel + stars.haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
+    return colour * (power * STAR_UNIT * sky_procedural_star_brightness);
+}
+
+// `reach`: half the longest axis of the footprint, rad.
+vec3 galaxy_radiance(vec3 direction, float reach) {
+    float height = dot(direction, GALAXY_POLE);
+    float longitude = turns(dot(direction, GALAXY_CENTRE), dot(direction, cross(GALAXY_POLE, GALAXY_CENTRE)));
     float level = log2(max(reach / GALAXY_TEXEL, 1.0));
     // A very wide footprint holds the sky beside the band too, which is as large as the band's map and dark.
     float whole_sky = smoothstep(0.1, 0.6, reach);
     vec2 place = vec2(longitude + 0.5, 0.5 + height * (1.0 - whole_sky));
     vec3 root = textureLod(galaxy_band, place, level).rgb;
-    return root * root * (1.0 - 0.5 * whole_sky);
+    return root * root * ((0.06 - 0.03 * whole_sky) * sky_procedural_galaxy_brightness);
 }
 
-vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
+// The observer's shift in colour, and as a factor of the light.
+vec2 sky_shift(float energy) {
 #if !SKY_PROCEDURAL_FREQUENCY_SHIFT
     energy = 1.0;
 #endif
+    float boost = energy * energy;
+    return vec2(energy, boost * boost);
+}
+
+vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star) {
+    vec2 shift = sky_shift(energy);
     SkySpot spot = sky_spot(direction, right, up);
     SkyPlace at = sky_place(direction);
-    float spread = (2.0 / STAR_MARGIN) * sqrt(spot.reach2 * at.narrowness);
-    StarLight stars = StarLight(0.0, 0.0, 0.0);
-    add_star_grid(stars, spot, at, spread, 7.0, 0, 1.0, 20.0);
-    add_star_grid(stars, spot, at, spread, 16.0, 7, 0.2536, 1.0);
-    add_star_grid(stars, spot, at, spread, 34.0, 23, 0.0783, 0.2536);
-    add_star_grid(stars, spot, at, spread, 60.0, 57, 0.0309, 0.0783);
-    // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
-    float haze = stars.haze * star_richness(direction) * (0.5625 / 1.4831);
-    float power = stars.flux * spot.kernel + haze;
-    vec3 colour = blackbody_colour((stars.heat * spot.kernel + haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
-    vec3 galaxy = galaxy_radiance(spot) * (0.06 * sky_procedural_galaxy_brightness);
-    float boost = energy * energy;
-    return (colour * (power * STAR_UNIT * sky_procedural_star_brightness) + galaxy) * (boost * boost);
+    StarGrid grid = STAR_GRIDS[n];
+    star = grid_star(grid, at);
+    float flux = star.w - star.w * grid_haze(grid, sky_spread(spot, at));
+    vec3 light = blackbody_colour(star_kelvin(star.w) * shift.x) * (flux * STAR_UNIT * sky_procedural_star_brightness * shift.y);
+    star.w = max(sky_procedural_star_size, 3.2e-7); // as in sky_spot
+    return light;
+}
+
+vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near) {
+    vec2 shift = sky_shift(energy);
+    SkySpot spot = sky_spot(direction, finer * right, finer * up);
+    float room = 0.362 / finer; // a little beyond the pixel's corners, 0.71 of its sides away; a half kernel is two sides of a finer one
+    StarLight stars = star_light(spot, room * room);
+    stars_near = stars.near;
+    if (finer < 1.0) stars.flux = stars.heat = 0.0;
+    return (star_radiance(stars, spot.kernel, shift.x) + galaxy_radiance(direction, sqrt(spot.reach2) / finer)) * shift.y;
 }

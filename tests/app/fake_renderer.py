@@ -53,8 +53,7 @@ class FakeRenderer:
     """Keeps what it was asked for and fills the target with a colour that depends on the camera's azimuth."""
 
     def __init__(self, gl):
-        self.calls = []
-        self.places = []
+        self.calls, self.places, self.stars = [], [], []
         self.programs = FakePrograms()
         self.hit_map = FakeHitMap()
         self.exposure = FakeExposure()
@@ -64,7 +63,7 @@ class FakeRenderer:
         self.us_per_pixel = 0.0
         self.finer, self.finer_of = 0, None
 
-    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False, glow_may_last=False):
+    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False, glow_may_last=False, shown=None):
         if self.fail is not None:
             raise self.fail
         self.calls.append((scene, time, size))
@@ -84,6 +83,9 @@ class FakeRenderer:
 
     def release(self):
         pass
+
+    def draw_stars(self, target, viewport):
+        self.stars.append((self.calls[-1][2], viewport))
 
     def render_finer(self, scene, time, size, target=None):
         self.finer = self.finer + 1 if self.finer_of == (scene, time, size) else 1

@@ -362,12 +362,19 @@ def test_the_coarse_pictures_that_begin_another_scene_are_never_seen(ctx):
 
 
 def test_a_coarse_picture_is_shown_where_there_is_none_yet(ctx):
+    """With the fewest programs: those that draw stars apart come with the next."""
     picture = Picture(ctx, FakeRenderer(ctx), Preparation(None))
-    assert picture.update(PLAIN, 0.0, Shown.AREA, moving=False, camera_moving=False)
-    assert picture.read_rgb8().shape == (9, 16, 3) and not picture.is_current
+
+    def update():
+        return picture.update(PLAIN, 0.0, Shown.AREA, moving=False, camera_moving=False)
+
+    assert update()
+    assert picture.renderer.calls[0][2] == (16, 9) and picture.read_rgb8().shape == (9, 16, 3) and not picture.is_current
+    assert picture.renderer.stars == []
+    assert not update() and len(picture.renderer.stars) == 1
 
 
-def test_a_coarse_picture_is_enlarged_from_the_texture(ctx):
+def test_a_coarse_picture_is_enlarged_and_its_stars_drawn_over_it(ctx):
     renderer = FakeRenderer(ctx)
     shown = Shown(ctx, renderer)
     scene = Scene().with_values({"camera.azimuth_deg": 50.0, "playback.target_fps": 120.0})
@@ -378,3 +385,4 @@ def test_a_coarse_picture_is_enlarged_from_the_texture(ctx):
         shown.picture.draw(shown.window, Shown.AREA)
         assert shown.seen() == close(50.0)
     assert shown.picture.scale < 1.0
+    assert renderer.stars[-1] == (renderer.calls[-1][2], Shown.AREA.viewport)

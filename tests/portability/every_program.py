@@ -77,8 +77,8 @@ def _of_scenes() -> Iterator[Wanted]:
         made = plan(scene)
         yield from ((path, name, made, {}) for path in (*TRACED, *EDGES))
         yield from ((path, name, made, TONE_TABLE) for path in POST)
-        yield from ((path, name, made, {"HIT_MAP_REFINED": refined}) for path, refined in _readers(made))
-        in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined)]
+        yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
+        in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined and path != "star_layer.frag")]
         yield from ((path, f"{name}, in blocks", made, {"RAYS_IN_BLOCKS": 1}) for path in in_blocks)
 
 
@@ -90,6 +90,7 @@ def _readers(made: Plan) -> Iterator[tuple[str, int]]:
         yield from (("shade_matter.frag", refined) for refined in (0, 1))
     if made.scene.sky.enabled:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
+        yield from (("star_layer.frag", refined) for refined in (0, 1))
 
 
 def _scenes() -> Iterator[tuple[str, Scene]]:

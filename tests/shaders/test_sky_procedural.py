@@ -28,7 +28,8 @@ vec3 ray(vec2 place) {
 }
 void main() {
     vec3 d = ray(gl_FragCoord.xy);
-    o = vec4(sky_radiance(d, blur * (ray(gl_FragCoord.xy + vec2(1.0, 0.0)) - d), blur * (ray(gl_FragCoord.xy + vec2(0.0, 1.0)) - d), energy), 1.0);
+    float near;
+    o = vec4(sky_radiance(d, blur * (ray(gl_FragCoord.xy + vec2(1.0, 0.0)) - d), blur * (ray(gl_FragCoord.xy + vec2(0.0, 1.0)) - d), energy, 1.0, near), 1.0);
 }
 """.replace("SIZE", f"{SIZE[0]}.0, {SIZE[1]}.0")
 

@@ -12,9 +12,10 @@ from blackhole_gl.resources import shaders_dir
 
 def test_the_shader_names_the_same_grids() -> None:
     text = (shaders_dir() / "skies" / "procedural.glsl").read_text(encoding="utf-8")
-    calls = re.findall(r"add_star_grid\(stars, spot, at, spread, ([\d.]+), (\d+), ([\d.]+), ([\d.]+)\)", text)
-    assert tuple((int(float(cells)), float(low), float(high)) for cells, _, low, high in calls) == star_cells.GRIDS
-    assert [int(row) for _, row, _, _ in calls] == list(np.cumsum([0] + [cells for cells, _, _ in star_cells.GRIDS])[:-1])
+    grids = re.findall(r"StarGrid\(([\d.]+), ([\d.]+), ([\d.]+), ([\d.]+)\)", text)
+    assert tuple((int(float(cells)), float(low), float(high)) for cells, _, low, high in grids) == star_cells.GRIDS
+    assert int(re.search(r"^stars = (\d+)$", text, re.M)[1]) == len(grids)
+    assert [int(float(row)) for _, row, _, _ in grids] == list(np.cumsum([0] + [cells for cells, _, _ in star_cells.GRIDS])[:-1])
     columns, rows = re.search(r"STAR_TEXEL = 1.0 / vec2\(([\d.]+), ([\d.]+)\)", text).groups()
     assert (float(rows), float(columns)) == star_cells.table().shape[:2]
     assert float(re.search(r"STAR_MARGIN = ([\d.]+)", text)[1]) == star_cells.MARGIN

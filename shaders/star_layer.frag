@@ -1,0 +1,25 @@
+#version 330 core
+// A single star over a coarse picture that is shown enlarged → the screen's code of both, where it shines; to be kept where that is brighter than what is there.
+#defines
+#blocks
+#include "common/tone_table.glsl"
+#include "common/tone.glsl"
+#include "common/developed.glsl"
+
+uniform sampler2D radiance;  // of the coarse picture, filtered linearly
+uniform vec2 target_origin;  // lower left pixel of the picture in the target
+uniform vec2 target_texel;   // 1 / size of the picture in the target
+
+flat in vec2 place;
+flat in vec3 stretch;
+flat in vec3 brightest;
+flat in vec3 glowing;
+
+out vec4 colour;
+
+void main() {
+    vec2 pixel = gl_FragCoord.xy - target_origin, d = pixel - place;
+    float fall = max(1.0 - (stretch.x * d.x * d.x + 2.0 * stretch.y * d.x * d.y + stretch.z * d.y * d.y), 0.0); // skies/procedural.glsl has the same kernel
+    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb + glowing + fall * fall * fall * brightest;
+    colour = fall > 0.0 ? vec4(developed(light), 1.0) : vec4(0.0);
+}

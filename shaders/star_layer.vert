@@ -1,0 +1,139 @@
+#version 330 core
+// Listed pixels of a coarse picture → the single stars in them, the two brightest of each, as points on the picture enlarged. A point without one is nowhere.
+// A star is placed by its offset from the pixel's own direction, and the map's slopes there. Who finds it in his pixel, or just beside it, draws it: neighbours that
+// differ a little about the border both do, rather than neither, and the brighter of the two is kept.
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/observer.glsl"
+#include "common/hits.glsl"
+#include "common/hit_map_read.glsl"
+#slot sky
+
+uniform sampler2D pixels;    // x, y of a pixel each, row by row
+uniform sampler2D radiance;  // of the coarse picture; alpha: share of the sky's light that comes through
+#if POST_BLOOM
+uniform sampler2D glow;
+#endif
+uniform vec2 finer;          // size of the coarse picture over that shown
+
+// Of the star: where it is, in pixels shown; the matrix (xx, xy, yy) by which the square of an offset from there is measured, 1 where the kernel ends; its
+// radiance in the middle; and the glow there, which is smooth.
+flat out vec2 place;
+flat out vec3 stretch;
+flat out vec3 brightest;
+flat out vec3 glowing;
+
+const float WITHIN = 0.51;     // of a pixel from its middle
+const float NEAR = 0.7;        // the same, before the map's bend is reckoned with
+const float MOST_REACH = 24.0; // of a star's image, in pixels shown: longer arcs are cut off
+
+// How the direction changes along one axis of the picture, about a pixel: once and twice.
+struct Slope {
+    vec3 once, twice;
+    bool known;
+};
+
+Slope slope_of(Hits before, Hits own, Hits after) {
+    bool back = before.fate == ESCAPED, on = after.fate == ESCAPED;
+    if (back && on) return Slope(0.5 * (after.direction - before.direction), after.direction - 2.0 * own.direction + before.direction, own.fate == ESCAPED);
+    return Slope(on ? after.direction - own.direction : own.direction - before.direction, vec3(0.0), own.fate == ESCAPED && (back || on));
+}
+
+// The direction at an offset from the pixel's middle, and how it changes there, in pixels.
+struct Place {
+    vec3 direction;
+    vec3 right, up;
+};
+
+Place place_at(vec3 own, Slope x, Slope y, vec3 mixed, vec2 at) {
+    vec3 direction = own + at.x * (x.once + 0.5 * at.x * x.twice) + at.y * (y.once + 0.5 * at.y * y.twice) + at.x * at.y * mixed;
+    return Place(direction, x.once + at.x * x.twice + at.y * mixed, y.once + at.y * y.twice + at.x * mixed);
+}
+
+// (g.x g.y; g.y g.z)⁻¹
+vec3 inverse_of(vec3 g, float det) {
+    return vec3(g.z, -g.y, g.x) / det;
+}
+
+// Gram matrix of the two, and its determinant, the square of the solid angle that they span.
+vec4 gram_of(vec3 right, vec3 up) {
+    vec3 crossed = cross(right, up);
+    return vec4(dot(right, right), dot(right, up), dot(up, up), max(dot(crossed, crossed), 1e-30));
+}
+
+Hits hits_beside(ivec2 here, ivec2 step) {
+    ivec2 there = here + step;
+    Hits hits = fetch_escape(there);
+    if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, textureSize(radiance, 0)))) hits.fate = UNRESOLVED;
+    return hits;
+}
+
+// A star that a pixel may hold.
+struct Star {
+    int n;            // for sky_star
+    vec3 direction;
+    float power;
+};
+
+// Where `direction` is by the slopes at `at`, in pixels from there.
+vec2 offset_of(vec3 direction, Place at) {
+    vec3 left = direction - at.direction;
+    vec4 gram = gram_of(at.right, at.up);
+    vec3 inverse = inverse_of(gram.xyz, gram.w);
+    vec2 along = vec2(dot(left, at.right), dot(left, at.up));
+    return vec2(dot(inverse.xy, along), dot(inverse.yz, along));
+}
+
+void main() {
+    carry();
+    int width = textureSize(pixels, 0).x, entry = gl_VertexID / 2;
+    ivec2 here = ivec2(texelFetch(pixels, ivec2(entry % width, entry / width), 0).xy);
+    Hits own = fetch_escape(here);
+    Hits right = hits_beside(here, ivec2(1, 0)), up = hits_beside(here, ivec2(0, 1)), corner = hits_beside(here, ivec2(1, 1));
+    Slope x = slope_of(hits_beside(here, ivec2(-1, 0)), own, right), y = slope_of(hits_beside(here, ivec2(0, -1)), own, up);
+    bool square = right.fate == ESCAPED && up.fate == ESCAPED && corner.fate == ESCAPED;
+    vec3 mixed = square ? corner.direction - right.direction - up.direction + own.direction : vec3(0.0);
+    Place middle = place_at(own.direction, x, y, mixed, vec2(0.0));
+
+    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(vec2(here) + 0.5)), 1e-6);
+    Star first = Star(0, own.direction, 0.0), second = first;
+    vec4 found;
+    for (int n = 0; n < SKY_STARS; ++n) {
+        vec3 light = sky_star(n, own.direction, finer.x * x.once, finer.y * y.once, energy, found);
+        bool near = all(lessThan(abs(offset_of(found.xyz, middle)), vec2(NEAR)));
+        Star star = Star(n, found.xyz, near ? dot(light, vec3(1.0)) : 0.0);
+        bool brighter = star.power > first.power;
+        if (brighter || star.power > second.power) second = brighter ? first : star;
+        if (brighter) first = star;
+    }
+    Star star = (gl_VertexID & 1) == 0 ? first : second;
+
+    vec2 offset = vec2(0.0); // by Newton
+    Place at = middle;
+    for (int i = 0; i < 3; ++i) {
+        offset = clamp(offset + offset_of(star.direction, at), -1.0, 1.0);
+        at = place_at(own.direction, x, y, mixed, offset);
+    }
+    bool mine = all(lessThan(abs(offset), vec2(WITHIN)));
+
+    // The kernel's covariance in pixels shown: a pixel, and the star's own size.
+    at.right *= finer.x;
+    at.up *= finer.y;
+    vec3 light = sky_star(star.n, at.direction, at.right, at.up, energy, found); // once more: how much of it is a haze goes by the slopes
+    vec4 gram = gram_of(at.right, at.up);
+    vec3 spread = vec3(1.0, 0.0, 1.0) + found.w * found.w * inverse_of(gram.xyz, gram.w);
+    float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);
+    place = (vec2(here) + 0.5 + offset) / finer;
+    stretch = 0.25 * inverse_of(spread, spread_det);
+    brightest = light * texelFetch(radiance, here, 0).a / (3.1415927 * sqrt(spread_det * gram.w));
+    vec2 part = place * finer / vec2(textureSize(radiance, 0)); // of the picture
+#if POST_BLOOM
+    glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;
+#else
+    glowing = vec3(0.0);
+#endif
+    bool drawn = x.known && y.known && mine && star.power > 0.0;
+    gl_Position = drawn ? vec4(2.0 * part - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = 2.0 * min(2.0 * sqrt(max(spread.x, spread.z)), MOST_REACH);
+}
