@@ -152,7 +152,8 @@ class Programs:
 
     Attributes:
         errors: mistakes found by the last `reload`, until a later one mends them.
-        deadline: ``time.perf_counter()`` after which `get` compiles nothing and raises `Unready` instead. Whoever draws a window sets it before
+        deadline: ``time.perf_counter()`` after which `get` compiles nothing more and raises `Unready` instead: one program since the deadline was set, as
+            drawing what is there may take all the time until then, and none at all where it is −∞. Whoever draws a window sets it before
             each frame, and so spreads the programs of a new scene over several.
         compiled: how many programs have been compiled.
     """
@@ -161,8 +162,8 @@ class Programs:
         self.ctx = ctx
         self.roots = root or shaders_dir(), user_shaders_dir()
         self.errors: list[ShaderError] = []
-        self.deadline = math.inf
         self.compiled = 0
+        self.deadline = math.inf
         self._buffers = UniformBuffers(ctx)
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
@@ -230,9 +231,17 @@ class Programs:
         vertex = composed(_VERTEX.get(path, "fullscreen.vert"), blocks=lambda own: carry(blocks, fragment.words, own.run).vertex)
         return _Texts(vertex, fragment)
 
+    @property
+    def deadline(self) -> float:
+        return self._deadline
+
+    @deadline.setter
+    def deadline(self, by: float) -> None:
+        self._deadline, self._compiled_before = by, self.compiled
+
     def _compiled(self, texts: _Texts, *, by: float) -> Compiled:
         if texts not in self._kept:
-            if clock.perf_counter() > by:
+            if clock.perf_counter() > by and (by == -math.inf or self.compiled > self._compiled_before):
                 raise Unready("the programs of this scene are still being compiled")
             self._kept[texts] = self._compile(texts)
             if len(self._kept) > MOST_KEPT:

@@ -32,6 +32,21 @@ def test_nothing_is_compiled_after_the_deadline(renderer):
     assert renderer.programs.compiled == compiled, "a slider compiles nothing"
 
 
+def test_however_late_it_is_a_frame_compiles_one_program(renderer):
+    """Or a scene whose drawing takes longer than the time until the deadline would never have all of its programs."""
+    frames = 0
+    while True:
+        before, renderer.programs.deadline = renderer.programs.compiled, 0.0
+        try:
+            renderer.render(Scene(), 0.0, SIZE)
+            break
+        except programs.Unready:
+            assert renderer.programs.compiled == before + 1
+            frames += 1
+            assert frames < 50
+    assert frames > 5
+
+
 def test_the_programs_used_last_are_kept(renderer, monkeypatch):
     renderer.render(Scene(), 0.0, SIZE)
     needed = renderer.programs.compiled
