@@ -103,7 +103,7 @@ def check_rings(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> dict
     assert found["pixels"] < 0.02, found
     assert found["error"] < 0.2, found
     assert 0.9 < found["scan"] < 1.1 and 0.9 < found["light"] < 1.1, found
-    assert found["brighter than all beside"] < 25.5, found  # grey levels: a tenth of the scale; one ray a pixel comes to 100 and more
+    assert found["brighter than all beside"] < 16.0, found  # grey levels: a sixteenth of the scale stands out from no ring
     return found
 
 
@@ -115,7 +115,10 @@ def test_rings_are_lines_while_time_runs(renderer: Renderer, name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_rings_are_lines_in_a_window(renderer: Renderer, name: str) -> None:
-    print(name, check_rings(renderer, presets.load(["kerr"], {**SMOOTH, **SCENES[name]}), (1280, 720)))
+    found = check_rings(renderer, presets.load(["kerr"], {**SMOOTH, **SCENES[name]}), (1280, 720))
+    print(name, found)
+    # Known to fall short: sixteen rays are too few for a fifth in the narrow band by the critical curve alone, in two of the three (docs/performance.md).
+    assert (found["error of the band"] < 0.2) == (name == "kerr, a* = 0.9"), found
 
 
 def test_rings_are_finer_under_a_moving_camera_too(renderer: Renderer) -> None:
