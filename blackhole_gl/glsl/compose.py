@@ -19,18 +19,29 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 from ..text_files import TextError, read_text
-from .live import Words, live_words
+from .live import Words, live_words, numbered_live_lines
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _CALLED = re.compile(r"\w*\$key\w*(?=\()")  # functions of a plug-in, in a line for each
+_OF_SLOT = {  # functions of a slot of one plug-in, by their names, where they are called
+    "ray_model": re.compile(r"\b(?:trace_ray|(?:ray|state)_[a-z]\w*)(?=\()"),
+    "integrator": re.compile(r"\bintegrator_[a-z]\w*(?=\()"),
+    "step_control": re.compile(r"\b(?:step_[a-z]\w*|adapted_step)(?=\()"),
+    "sky": re.compile(r"\bsky_[a-z]\w*(?=\()"),
+}
+_GIVEN = re.compile(r"^\s*(?:#\s*define\s+|(?!return\b|else\b)(?:\w+\s+)+)(\w+)\s*\(", re.MULTILINE)  # functions, at their heads
 _LOG_LINE = (
     re.compile(r"^\d+:(?P<line>\d+)\(\d+\): (?P<text>.*)$"),  # Mesa
     re.compile(r"^\d+\((?P<line>\d+)\) : (?P<text>.*)$"),  # NVIDIA
     re.compile(r"^(?P<kind>ERROR|WARNING): \d+:(?P<line>\d+): (?P<text>.*)$"),  # AMD, Intel, Apple
 )
+
+Line: TypeAlias = tuple[str, tuple[str, int]]
+"""A line's text, and the (file, 1-based line) that it comes from."""
 
 
 class ShaderError(Exception):
@@ -105,14 +116,14 @@ def compose(
         instances: the GLSL that replaces ``#instances``.
 
     Raises:
-        ShaderError: a file or a slot is missing, a directive is malformed, or a plug-in lacks a function that is called for each of its slot.
+        ShaderError: a file or a slot is missing, a directive is malformed, or a plug-in lacks a function of its slot that is called.
     """
     reader = _Reader(roots, chosen or {})
     lines = list(reader.lines(path))
     mentioned = {word for text, _ in lines for word in _WORD.findall(text.partition("//")[0])}
     used = {name: value for name, value in (switches or {}).items() if name in mentioned}
     words = live_words((text for text, _ in lines), used)
-    out: list[tuple[str, tuple[str, int]]] = []
+    out: list[Line] = []
     for text, place in lines:
         if text.strip() == "#defines":
             out.extend((f"#define {name} {value}", place) for name, value in used.items())
@@ -122,24 +133,20 @@ def compose(
             out.extend((line, place) for line in instances.splitlines())
         else:
             out.append((text, place))
+    reader.refuse_missing(out, used)
     composed = "\n".join(text for text, _ in out) + "\n"
-    reader.refuse_missing(composed)
     return Composed(composed, tuple(place for _, place in out), used, words)
 
 
 class _Reader:
-    """Carries out the directives that bring in other files.
-
-    Attributes:
-        called: function → the plug-in that has to have it, by its file.
-    """
+    """Carries out the directives that bring in other files."""
 
     def __init__(self, roots: Sequence[Path], chosen: Mapping[str, Sequence[str]]):
         self._roots, self._chosen = roots, chosen
         self._seen: set[str] = set()
-        self.called: dict[str, str] = {}
+        self._called: dict[str, str] = {}  # in lines for each: function → the plug-in that has to have it, by its file
 
-    def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> Iterator[tuple[str, tuple[str, int]]]:
+    def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> Iterator[Line]:
         """Each line of the file at `path`, and of what it brings in, with its place."""
         if path in self._seen:
             return
@@ -160,13 +167,22 @@ class _Reader:
             else:
                 yield from self._slot(match[1], match[2], place)
 
-    def refuse_missing(self, text: str) -> None:
-        """Refuses the composed `text` where a plug-in lacks a function that is called in it."""
-        for function, plug_in in self.called.items():
-            if not re.search(rf"^\s*(?!return\b|else\b)(?:\w+\s+)+{function}\s*\(", text, re.MULTILINE):
-                raise ShaderError(f"there is no function {function}, which this plug-in has to have", self._found(plug_in)[1], 1)
+    def refuse_missing(self, lines: Sequence[Line], switches: Mapping[str, int]) -> None:
+        """Refuses the composed `lines` where a plug-in lacks functions that others call in it."""
+        compiled = [(text, lines[number][1][0]) for number, text in numbered_live_lines((text for text, _ in lines), switches)]
+        given = set(_GIVEN.findall("\n".join(text for text, _ in compiled)))
+        asked = dict(self._called)
+        for slot, names in _OF_SLOT.items():
+            for plug_in in self._chosen.get(slot, ()):
+                own = self._found(plug_in)[1]
+                asked |= {name: plug_in for text, file in compiled if file != own for name in names.findall(text)}
+        for plug_in in dict.fromkeys(asked.values()):
+            missing = [name for name, of in asked.items() if of == plug_in and name not in given]
+            if missing:
+                what = f"is no function {missing[0]}" if len(missing) == 1 else f"are no functions {', '.join(missing)}"
+                raise ShaderError(f"there {what}, which this plug-in has to have", self._found(plug_in)[1], 1)
 
-    def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> Iterator[tuple[str, tuple[str, int]]]:
+    def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> Iterator[Line]:
         slot, _, template = rest.partition(":")
         if slot.strip() not in self._chosen:
             raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
@@ -175,7 +191,7 @@ class _Reader:
                 yield from self.lines(plug_in, place)
                 continue
             key = Path(plug_in).stem
-            self.called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
+            self._called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
             yield template.strip().replace("$key", key).replace("$KEY", key.upper()), place
 
     def _found(self, path: str) -> tuple[Path, str]:

@@ -59,13 +59,18 @@ class _Branch:
 
 
 def live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[str]:
-    """The lines that are compiled, without line comments; `switches` are the defines that the host writes.
+    """The lines that are compiled, as `numbered_live_lines` has them."""
+    return (text for _, text in numbered_live_lines(lines, switches))
+
+
+def numbered_live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[tuple[int, str]]:
+    """The lines that are compiled, without line comments, each with its place in `lines`, from 0; `switches` are the defines that the host writes.
 
     A condition that cannot be worked out here (a macro with arguments) counts as true and so does its opposite: more lines stand then than run.
     """
     known: dict[str, str] = {name: str(value) for name, value in switches.items()}
     branches: list[_Branch] = []
-    for line in lines:
+    for number, line in enumerate(lines):
         text = line.partition("//")[0]
         conditional = _CONDITIONAL.match(text)
         if conditional:
@@ -74,7 +79,7 @@ def live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[st
             define = _DEFINE.match(text)
             if define:
                 known[define[1]] = define[2]
-            yield text
+            yield number, text
 
 
 def _follow(branches: list[_Branch], word: str, condition: str, known: Mapping[str, str]) -> None:

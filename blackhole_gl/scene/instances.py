@@ -6,13 +6,13 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
 from typing import Any
 
 from . import catalogue
 from .catalogue import KIND
 from .frozen import FrozenMap
-from .schema import Field, SceneError, Value, describe, nearest, number_of
+from .order import disorder, refuse_disorder
+from .schema import Field, SceneError, Value, describe, nearest
 
 SLOTS: Mapping[str, str] = {slot.section: key for key, slot in catalogue.SLOTS.items() if slot.of_kinds}
 """Section of a scene → the catalogue slot whose plug-ins are the kinds of its instances."""
@@ -106,8 +106,7 @@ def changed(section: str, instances: Instances, values: Iterable[tuple[Place, An
                 raise _unknown_parameter(replace(place, parameter=parameter), made.kind)
             entries[parameter] = known[parameter].check(value)
         made = Instance(made.kind, made.values.updated(entries))
-        for smaller, larger in _disorder(section, made.kind, made.values):
-            raise _disordered(place, smaller, larger, made.values, last=larger if larger in entries else smaller)
+        refuse_disorder(place.path, _increasing(section, made.kind), made.values.__getitem__, entries)
         instances = instances.updated({name: made})
     return instances
 
@@ -145,22 +144,14 @@ def _of_kind(place: Place, given: Any, old: Instance | None) -> Instance:
     values = {name: item.default for name, item in kinds[given].parameters.items()}
     if old is not None:
         kept = {name: value for name, value in old.values.items() if name in values and _takes(kinds[given].parameters[name], value)}
-        while wrong := {name for pair in _disorder(place.section, given, values | kept) for name in pair} & kept.keys():
+        while wrong := {name for pair in disorder(_increasing(place.section, given), (values | kept).__getitem__) for name in pair} & kept.keys():
             kept = {name: value for name, value in kept.items() if name not in wrong}
         values |= kept
     return Instance(given, FrozenMap(values))
 
 
-def _disorder(section: str, kind: str, values: Mapping[str, Value]) -> list[tuple[str, str]]:
-    """The pairs of parameters that stand the wrong way round in `values` of `kind`."""
-    increasing = catalogue.plug_ins(SLOTS[section])[kind].traits.increasing
-    return [(smaller, larger) for smaller, larger in pairwise(increasing) if number_of(values[smaller]) > number_of(values[larger])]
-
-
-def _disordered(place: Place, smaller: str, larger: str, values: Mapping[str, Value], last: str) -> SceneError:
-    bound, other = ("at most", larger) if last == smaller else ("at least", smaller)
-    allowed = f"{bound} {values[other]:g}, which is {place.path}.{other}"
-    return SceneError(f"{place.path}.{last}", f"got {values[last]:g}; allowed is {allowed}")
+def _increasing(section: str, kind: str) -> tuple[str, ...]:
+    return catalogue.plug_ins(SLOTS[section])[kind].traits.increasing
 
 
 def _takes(item: Field, value: Value) -> bool:

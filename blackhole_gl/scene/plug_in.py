@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
@@ -13,7 +12,8 @@ from ..resources import shaders_dir
 from ..text_files import TextError, read_text
 from . import headers, parameters
 from .headers import CatalogueError
-from .schema import Field, nearest, number_of
+from .order import disorder
+from .schema import Field, nearest
 from .tables import Number, Table
 from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, RayModelTraits, SkyTraits, StepControlTraits, ThingTraits, Traits
 
@@ -161,9 +161,8 @@ def _refuse_unknown_numbers(entry: str, names: tuple[str, ...], known: Mapping[s
 
 
 def _refuse_disordered_defaults(increasing: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:
-    for smaller, larger in pairwise(increasing):
-        if number_of(known[smaller].default) > number_of(known[larger].default):
-            raise CatalogueError(f"{place}: increasing: the default of {smaller!r} is larger than that of {larger!r}")
+    for smaller, larger in disorder(increasing, lambda name: known[name].default):
+        raise CatalogueError(f"{place}: increasing: the default of {smaller!r} is larger than that of {larger!r}")
 
 
 def _declared(header: Mapping[str, Any], part: str, place: str) -> Mapping[str, Mapping[str, Any]]:

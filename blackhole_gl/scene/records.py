@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from operator import attrgetter
 from types import MappingProxyType
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 from . import catalogue, instances, sections
 from .frozen import FrozenMap
 from .instances import Instances, Place
+from .order import refuse_disorder
 from .schema import Field, SceneError, Value, nearest_key
 from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky
 
@@ -87,7 +88,7 @@ class Scene:
         """This scene with `values` (dotted key → value) put in. An instance is made by its kind, ``things.moon.kind``.
 
         Raises:
-            SceneError: an unknown key (the nearest known one is named) or a value that its field does not take.
+            SceneError: an unknown key (the nearest known one is named), a value that its field does not take, or values that have an order out of it.
         """
         records: dict[str, dict[str, Value]] = {}
         placed: dict[str, list[tuple[Place, Any]]] = {}
@@ -106,6 +107,8 @@ class Scene:
             else:
                 parameters[key] = value
         changed = {section: replace(getattr(self, section), **entries) for section, entries in records.items()}
+        for section, record in changed.items():
+            refuse_disorder(section, sections.INCREASING.get(section, ()), partial(getattr, record), records[section])
         made = {section: instances.changed(section, getattr(self, section), entries) for section, entries in placed.items()}
         return self._with_sections({"parameters": MappingProxyType(parameters), **changed, **made})
 

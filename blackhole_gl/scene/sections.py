@@ -122,7 +122,7 @@ class Disk:
 
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
-    outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge.")
+    outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
     thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing yet: the disk is thin, and so is the pattern on it.", idle=True)
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
     temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
@@ -214,6 +214,9 @@ SECTIONS: Mapping[str, type] = MappingProxyType(
     {"hole": Hole, "camera": Camera, "rays": Rays, "disk": Disk, "sky": Sky, "post": Post, "playback": Playback}
 )
 """The sections by name, in the order of panels and files."""
+
+INCREASING: Mapping[str, tuple[str, ...]] = MappingProxyType({"disk": ("inner_radius", "outer_radius")})
+"""Section → those of its numbers none of which may be larger than the one after it."""
 
 
 def declared() -> dict[str, Mapping[str, Any]]:

@@ -94,7 +94,8 @@ def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Con
 
 
 def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = presets.load(["kerr", "blackholegpu_medium"], {"rays.model": "kerr"})  # a method stated in full
+    wide = {"disk.outer_radius": 20.0}  # its inner edge may then be as far out as it may be at all
+    scene = presets.load(["kerr", "blackholegpu_medium"], {"rays.model": "kerr", **wide})  # a method stated in full
     renderer.render(scene, 0.0, (16, 9))
     compiled = []
     compose = renderer.programs._compose

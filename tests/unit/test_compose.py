@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from blackhole_gl.glsl.compose import Composed, ShaderError, compose
 from blackhole_gl.glsl.live import Words
+from blackhole_gl.resources import shaders_dir
 
 
 @pytest.fixture
@@ -77,6 +79,70 @@ def test_a_plug_in_that_lacks_a_function_of_its_slot_is_named(shaders, tmp_path,
     with pytest.raises(ShaderError, match="there is no function thing_ball_distance, which this plug-in has to have") as caught:
         compose(roots, "main.glsl", chosen={"thing": ["things/ball.glsl"]})
     assert (caught.value.file, caught.value.line) == (str(tmp_path / "own" / "things" / "ball.glsl"), 1)
+
+
+MODEL = "struct State { float x; };\nState ray_init() { return State(0.0); }\n#ifdef SECOND\nState state_push(State s) { return s; }\n#endif\n"
+MARCH = """#slot ray_model
+#slot integrator
+void main() {
+    State s = integrator_step(ray_init());
+    // ray_end(s)
+#if DRIFTS
+    ray_drift(s);
+#endif
+}
+"""
+EULER = "State integrator_step(State s) {\n    return state_push(s);\n}\n"
+
+
+@pytest.mark.parametrize(
+    "model, integrator, switches, at_fault, says",
+    [
+        (f"#define SECOND\n{MODEL}", EULER, {}, None, ""),
+        (MODEL, EULER, {}, "model", "there is no function state_push, which this plug-in has to have"),
+        (MODEL.replace("ray_init", "ray_begin"), EULER, {}, "model", "there are no functions state_push, ray_init, which this plug-in has to have"),
+        (f"#define SECOND\n{MODEL}", "", {}, "integrator", "there is no function integrator_step, which"),
+        (f"#define SECOND\n{MODEL}", EULER, {"DRIFTS": 1}, "model", "there is no function ray_drift, which"),
+        (f"#define SECOND\n{MODEL}void g() {{ ray_nod(); }}\n", EULER, {}, None, ""),  # a slip in the plug-in's own text is the driver's to tell, with its line
+    ],
+)
+def test_a_ray_plug_in_that_lacks_a_function_that_others_call_is_named(shaders, tmp_path, model, integrator, switches, at_fault, says):
+    shaders(shipped__main=MARCH, own__model=model, own__integrator=integrator)
+    roots, chosen = (tmp_path / "shipped", tmp_path / "own"), {"ray_model": ["model.glsl"], "integrator": ["integrator.glsl"]}
+    if at_fault is None:
+        compose(roots, "main.glsl", chosen=chosen, switches=switches)
+        return
+    with pytest.raises(ShaderError, match=says) as caught:
+        compose(roots, "main.glsl", chosen=chosen, switches=switches)
+    assert (caught.value.file, caught.value.line) == (str(tmp_path / "own" / f"{at_fault}.glsl"), 1)
+
+
+SHIPPED = {"ray_model": "ray_models/schwarzschild_binet.glsl", "integrator": "integrators/rk4.glsl", "step_control": "step_controls/radius.glsl"}
+
+
+@pytest.mark.parametrize(
+    "slot, path, function, main",
+    [
+        ("ray_model", "ray_models/schwarzschild_binet.glsl", "ray_plane_point", "trace.frag"),
+        ("ray_model", "ray_models/flat.glsl", "trace_ray", "trace.frag"),
+        ("integrator", "integrators/rk4.glsl", "integrator_step", "trace.frag"),
+        ("step_control", "step_controls/radius.glsl", "step_size", "trace.frag"),
+        ("step_control", "step_controls/doubling.glsl", "adapted_step", "trace.frag"),
+        ("sky", "skies/procedural.glsl", "sky_radiance", "shade_sky.frag"),
+    ],
+)
+def test_each_slot_of_a_picture_knows_its_functions(tmp_path, slot, path, function, main):
+    def made(text: str) -> Composed:
+        (tmp_path / "mine.glsl").write_text(text, encoding="utf-8")
+        chosen = {name: ["mine.glsl" if name == slot else file] for name, file in {**SHIPPED, "sky": ""}.items()}
+        switches = {"MARCHED": int("ray_models/flat.glsl" != path), "ORDERS": 3}
+        return compose((shaders_dir(), tmp_path), main, chosen={**chosen, "thing": [], "medium": []}, switches=switches)
+
+    whole = (shaders_dir() / path).read_text(encoding="utf-8")
+    made(whole)
+    with pytest.raises(ShaderError, match=rf"there is no function {function}, which this plug-in has to have") as caught:
+        made(re.sub(rf"\b{function}\b", f"{function}s", whole))
+    assert caught.value.file == str(tmp_path / "mine.glsl")
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])

@@ -239,7 +239,6 @@ def test_a_later_preset_merges_into_an_instance(preset_file):
         ("[things.moon]\nradius = 1.0\n", 2, "things.moon.radius: there is no thing 'moon'; there is none in this scene. Allowed to make one is its kind"),
         ("[things.moon]\nkind = 'sphere'\nradii = [1.0,\n -2.0]\n", 3, "things.moon.radii: entry 2: got -2.0; allowed is a number from 0 to 9"),
         (WHOLE.replace("time = 2.0", "time = -2.0"), 11, "things.moon.path: entry 2, time: got -2.0"),
-        (WHOLE.replace("time = 2.0", "when = 2.0"), 11, "things.moon.path: entry 2: there is no 'when'; allowed are time, ease, image"),
     ],
 )
 def test_a_wrong_entry_names_file_line_key_and_what_is_allowed(preset_file, text, line, says):
@@ -260,6 +259,13 @@ def test_what_this_version_does_not_know_is_told_and_the_rest_counts(preset_file
     path = preset_file(f"[things.moon]\nkind = 'cube'\n{text}")
     assert presets.load([path]).things == {"moon": Instance("cube", FrozenMap({"edge": 2.0, "radius": 0.5, "glows": False}))}
     assert presets.skipped([path]) == [f"{path}, line {line}: {says}"]
+
+
+def test_what_this_version_does_not_know_of_a_record_in_a_list_is_told_and_the_rest_counts(preset_file):
+    path = preset_file(WHOLE.replace("time = 2.0", "time = 2.0\ntmie = 3.0\nx-y = 1"))
+    assert presets.load([path]) == presets.load([preset_file(WHOLE, "whole.toml")])
+    told = f"{path}, line 11: things.moon.path: entry 2: {{}} skipped, for this version has no such entry in it"
+    assert presets.skipped([path]) == [told.format("tmie") + "; did you mean time?", told.format("x-y")]
 
 
 def test_a_layer_that_does_not_fit_what_lies_below_is_named_with_its_line(preset_file):

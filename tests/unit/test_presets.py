@@ -44,7 +44,10 @@ def _values(item):
 @st.composite
 def scenes(draw):
     chosen = draw(st.lists(st.sampled_from(sorted(fields())), unique=True, max_size=12))
-    return Scene().with_values({key: draw(_values(fields()[key])) for key in chosen})
+    values = {key: draw(_values(fields()[key])) for key in chosen}
+    if "disk.inner_radius" in values:
+        values["disk.outer_radius"] = max(values["disk.inner_radius"], values.get("disk.outer_radius", Scene().disk.outer_radius))
+    return Scene().with_values(values)
 
 
 # --- layers and overrides ---
@@ -163,6 +166,8 @@ def test_a_users_preset_has_a_name_but_cannot_take_a_shipped_one(user_folder):
         ("title = 3\n", 1, "title: got 3; allowed is text"),
         ("group = 'looks'\n", 1, "group: got 'looks'; allowed is one of physics, look"),
         ("time = inf\n", 1, "time: got inf; allowed is a finite number"),
+        ("[disk]\nouter_radius = 5.0\ninner_radius = 6.0\n", 2, "disk.outer_radius: got 5; allowed is at least 6, which is disk.inner_radius"),
+        ("[disk]\ninner_radius = 16.0\n", 2, "disk.inner_radius: got 16; allowed is at most 10, which is disk.outer_radius"),
         ("[hole]\nspin = '0,5'\n", 2, "hole.spin: got '0,5'; allowed is a number .*; write 0.5, not 0,5"),
     ],
 )

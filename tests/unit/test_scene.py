@@ -88,6 +88,7 @@ def test_scenes_are_frozen_hashable_and_travel():
         ("disk.outer_radios", 3.0, ["did you mean disk.outer_radius?"]),
         ("spin", 0.5, ["did you mean hole.spin?"]),
         ("nonsense", 0.5, ["no such key"]),
+        ("disk.inner_radius", 12.0, ["got 12; allowed is at most 10, which is disk.outer_radius"]),
     ],
 )
 def test_errors_name_key_value_and_what_is_allowed(key, value, words):
@@ -98,12 +99,22 @@ def test_errors_name_key_value_and_what_is_allowed(key, value, words):
         assert word in str(caught.value)
 
 
+def test_the_disks_inner_edge_is_not_beyond_its_outer_one():
+    scene = Scene().with_values({"disk.inner_radius": 12.0, "disk.outer_radius": 14.0})
+    assert scene.with_values({"disk.outer_radius": 12.0}).disk.outer_radius == 12.0
+    with pytest.raises(SceneError, match="^disk.outer_radius: got 11.5; allowed is at least 12, which is disk.inner_radius"):
+        scene.with_values({"disk.outer_radius": 11.5})
+    with pytest.raises(SceneError, match="^disk.outer_radius: got 5; allowed is at least 6, which is disk.inner_radius"):
+        Scene().with_values({"disk.inner_radius": 6.0, "disk.outer_radius": 5.0})
+
+
 @given(st.sampled_from(NUMBERS), st.floats(0.0, 1.0))
 def test_every_value_in_range_is_taken(item: Field, share: float):
     value = min(item.low + share * (item.high - item.low), item.high)
     if item.kind == "int":
         value = round(value)
-    assert Scene().with_values({item.key: value}).get(item.key) == value
+    others = {"disk.outer_radius": 20.0} if item.key == "disk.inner_radius" else {}
+    assert Scene().with_values({**others, item.key: value}).get(item.key) == value
 
 
 @settings(max_examples=200)

@@ -163,7 +163,7 @@ class _Reader:
 
     def _put(self, item: Field, value: Any) -> None:
         try:
-            self._values[item.key] = item.check(value)
+            self._values[item.key] = item.check(self._of_known_columns(item, value))
         except SceneError as error:
             raise self._error(item.key, error.message + _comma_in(value), error.entry) from None
 
@@ -190,6 +190,8 @@ class _Reader:
             elif not is_name(name):
                 self._skip(f"{place.path}.{_quoted(name)}", "")
         entries = {name: value for name, value in entries.items() if is_name(name) and (known is None or name in known)}
+        if known is not None:
+            entries = {name: self._of_known_columns(known[name], value) for name, value in entries.items()}
         if KIND in entries:
             given = {instances.Place(place.section, place.name, name): value for name, value in entries.items()}
             try:
@@ -198,6 +200,18 @@ class _Reader:
                 raise self._error(error.key, error.message + _comma_in(entries.get(error.key.rpartition(".")[2])), error.entry) from None
             entries = {name: made.kind if name == KIND else made.values[name] for name in entries}
         self._values |= {f"{place.path}.{name}": value for name, value in entries.items()}
+
+    def _of_known_columns(self, item: Field, value: Any) -> Any:
+        """`value` less what its records have beside the columns of `item`, if it is a list of records."""
+        if not item.columns or not isinstance(value, list):
+            return value
+        names = [column.key for column in item.columns]
+        for number, record in enumerate(value, 1):
+            for name in record if isinstance(record, dict) else ():
+                if name not in names:
+                    told = f"entry {number}: {_quoted(name)} skipped, for this version has no such entry in it{nearest(name, names)}"
+                    self._skipped.append(str(self._error(item.key, told, number)))
+        return [{name: entry for name, entry in record.items() if name in names} if isinstance(record, dict) else record for record in value]
 
     def _skip(self, key: str, hint: str) -> None:
         self._skipped.append(str(self._error(key, f"skipped, for this version has no such key{hint}")))
