@@ -137,7 +137,7 @@ class HitMap:
         plan = rays.inputs.plan
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
         if plan.meetings:
-            rays.sample(self.instances.samplers(plan.scene), RAY_UNIT + 1)
+            rays.sample(self.instances.samplers(plan, rays.inputs.time), RAY_UNIT + 1)
             rays.set(meeting_reach=plan.reach)
 
     @property
@@ -332,7 +332,7 @@ def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
     """What bends rays and where they are looked at from: hits that have the same key are the same."""
     scene = inputs.plan.scene
     parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
-    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders, instances.key(scene)
+    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders, instances.key(inputs.plan, inputs.time)
 
 
 def _refined_for(inputs: FrameInputs) -> tuple:

@@ -1,32 +1,41 @@
 """Things and media as shaders see them: for each kind a table with a row an instance, and GLSL that reads it by the parameters' names.
 
-A slider writes into a table, and one instance more makes it longer: neither compiles anything.
+A row begins with where the instance is at the frame's time (`_MOTION`), its parameters follow. A slider writes into a table, and one instance more makes it
+longer: neither compiles anything.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import moderngl
 import numpy as np
 
-from ..scene import Scene, met
+from ..physics import motion
+from ..plan import Plan
+from ..scene import Instance, Scene, catalogue, met
 from ..scene.plug_in import PlugIn
-from ..scene.schema import Field, number_of
+from ..scene.schema import Field, Value, number_of
 
 _NUMBERS = ("float", "int", "switch", "choice")
-"""Kinds of parameters that shaders know; a choice is known by its place among the options."""
+"""Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the options."""
+
+_MOTION = ("bound", "velocity", "spin", "attitude")
+"""A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
 
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
-    """Declarations for shaders: ``thing_ball_count``, and ``thing_ball_radius(i)`` for each parameter of the kind `ball`."""
+    """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind."""
     lines: list[str] = []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
         lines += [f"uniform sampler2D {name}_table;", f"#define {name}_count textureSize({name}_table, 0).y"]
-        for place, item in enumerate(_known(kind)):
-            value = f"texelFetch({name}_table, ivec2({place // 4}, i), 0).{'xyzw'[place % 4]}"
-            read = {"float": value, "switch": f"({value} > 0.5)"}.get(item.kind, f"int({value})")
+        motion_names = _motion_names(kind)
+        lines += [f"#define {name}_{word}(i) texelFetch({name}_table, ivec2({place}, i), 0)" for place, word in enumerate(motion_names)]
+        lines.append(f"#define {name}_centre(i) {name}_bound(i).xyz")
+        for item, place in _places(kind)[0]:
+            value = f"texelFetch({name}_table, ivec2({place // 4}, i), 0).{'xyzw'[place % 4 : place % 4 + _width(item)]}"
+            read = {"float": value, "list": value, "switch": f"({value} > 0.5)"}.get(item.kind, f"int({value})")
             lines.append(f"#define {name}_{item.key}(i) {read}")
     return "\n".join(lines)
 
@@ -47,9 +56,20 @@ def used(scene: Scene) -> list[PlugIn]:
     return [kind for slot in met.SLOTS for kind in met.kinds(scene, slot)]
 
 
-def key(scene: Scene) -> tuple:
-    """What hits depend on here: every instance."""
-    return tuple((slot, *met.instances(scene, slot)) for slot in met.SLOTS)
+def key(plan: Plan, time: float) -> tuple:
+    """What hits depend on here: every instance, and the places of those that move."""
+    return tuple(_key_of(instance, kinds[instance.kind], plan, time) for slot, kinds in _catalogues() for instance in met.instances(plan.scene, slot))
+
+
+def _catalogues() -> list[tuple[str, Mapping[str, PlugIn]]]:
+    return [(slot, catalogue.plug_ins(slot)) for slot in met.SLOTS]
+
+
+def _key_of(instance: Instance, kind: PlugIn, plan: Plan, time: float) -> tuple:
+    if not motion.moves(instance, kind.traits):
+        return kind.slot, instance
+    here = motion.of(instance, kind.traits, plan.space_time, time)
+    return kind.slot, instance, here.centre.tobytes(), b"" if kind.traits.round else here.attitude.tobytes()
 
 
 class InstanceTables:
@@ -59,9 +79,9 @@ class InstanceTables:
         self._ctx = ctx
         self._kept: dict[str, tuple[bytes, moderngl.Texture]] = {}
 
-    def samplers(self, scene: Scene) -> dict[str, moderngl.Texture]:
-        """Sampler's name → table, as `scene` has them."""
-        return {f"{kind.slot}_{kind.key}_table": self._texture(kind, _rows(scene, kind)) for kind in used(scene)}
+    def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
+        """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
+        return {f"{kind.slot}_{kind.key}_table": self._texture(kind, _rows(kind, plan, time)) for kind in used(plan.scene)}
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -83,17 +103,42 @@ class InstanceTables:
         return texture
 
 
-def _known(kind: PlugIn) -> list[Field]:
-    return [item for item in kind.parameters.values() if item.kind in _NUMBERS]
+def _width(item: Field) -> int:
+    """Numbers that shaders are given for it; 0: they do not know it."""
+    if item.kind == "list":
+        return int(item.low) if item.low == item.high and 2 <= item.low <= 4 and item.element is not None and item.element.kind in ("float", "int") else 0
+    return int(item.kind in _NUMBERS)
 
 
-def _rows(scene: Scene, kind: PlugIn) -> np.ndarray:
-    """float32 (instances, columns, 4), at least one column."""
-    items = _known(kind)
-    instances = [instance for instance in met.instances(scene, kind.slot) if instance.kind == kind.key]
-    rows = np.zeros((len(instances), 4 * max(-(-len(items) // 4), 1)), np.float32)
-    for row, instance in zip(rows, instances):
-        for place, item in enumerate(items):
-            value = instance.values[item.key]
-            row[place] = item.options.index(value) if isinstance(value, str) else number_of(value)
-    return rows.reshape(len(instances), -1, 4)
+def _places(kind: PlugIn) -> tuple[list[tuple[Field, int]], int]:
+    """Where in a row of `kind` each parameter's first number is, no parameter in two texels; and how long the row is, in whole texels."""
+    found, free = [], 4 * len(_motion_names(kind))
+    for item in kind.parameters.values():
+        width = _width(item)
+        if width:
+            free += -free % 4 if free % 4 + width > 4 else 0
+            found.append((item, free))
+            free += width
+    return found, free + -free % 4
+
+
+def _motion_names(kind: PlugIn) -> tuple[str, ...]:
+    return _MOTION if kind.traits.moves else _MOTION[:1]
+
+
+def _rows(kind: PlugIn, plan: Plan, time: float) -> np.ndarray:
+    """float32 (instances, columns, 4)."""
+    first, (places, length) = 4 * len(_motion_names(kind)), _places(kind)
+    found = [entry for entry in motion.motions(plan.scene, kind.slot, plan.space_time, time) if entry[0].kind == kind.key]
+    rows = np.zeros((len(found), length), np.float32)
+    for row, (instance, here) in zip(rows, found):
+        row[:first] = (*here.centre, here.reach, *here.velocity, 0.0, *here.spin, 0.0, *here.attitude)[:first]
+        for item, place in places:
+            row[place : place + _width(item)] = _numbers(item, instance.values[item.key])
+    return rows.reshape(len(found), -1, 4)
+
+
+def _numbers(item: Field, value: Value) -> tuple[float, ...]:
+    if isinstance(value, tuple):
+        return tuple(map(number_of, value))
+    return (float(item.options.index(value)) if isinstance(value, str) else number_of(value),)

@@ -141,7 +141,7 @@ class ShadePass:
 
     def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> dict[str, moderngl.Texture]:
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
-        things = hit_map.instances.samplers(inputs.plan.scene) if inputs.plan.meetings else {}
+        things = hit_map.instances.samplers(inputs.plan, inputs.time) if inputs.plan.meetings else {}
         return {**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from . import catalogue
@@ -9,6 +10,7 @@ from .instances import Instance
 from .plug_in import PlugIn
 from .records import Scene
 from .schema import number_of
+from .traits import MetTraits
 
 SLOTS = ("thing", "medium")
 
@@ -29,11 +31,24 @@ def is_empty(scene: Scene) -> bool:
     return not scene.things and not scene.media
 
 
+def extent(instance: Instance, traits: MetTraits) -> float:
+    """Distance in r_s from the centre of `instance`, whose kind has `traits`, beyond which no part of it lies."""
+    return sum(abs(number_of(instance.values[name])) for name in traits.reach)
+
+
 def reach(scene: Scene) -> float:
-    """Radius in r_s beyond which no part of any of them lies; 0 where there is none."""
+    """Radius in r_s about the hole beyond which no part of any of them lies, at any time; 0 where there is none."""
     found = 0.0
     for slot in SLOTS:
         known = catalogue.plug_ins(slot)
         for instance in instances(scene, slot):
-            found = max(found, sum(abs(number_of(instance.values[name])) for name in known[instance.kind].traits.reach))
+            traits = known[instance.kind].traits
+            found = max(found, _distance(instance, traits) + extent(instance, traits))
     return found
+
+
+def _distance(instance: Instance, traits: MetTraits) -> float:
+    """Of its centre from the hole, in r_s, at any time."""
+    if traits.moves and instance.values["path"] != "fixed":
+        return number_of(instance.values["orbit_radius"])
+    return math.hypot(*(number_of(instance.values[name]) for name in ("xyz" if traits.moves else traits.centre)))

@@ -10,12 +10,12 @@ from typing import Any, Generic, TypeVar
 
 from ..resources import shaders_dir
 from ..text_files import TextError, read_text
-from . import headers, parameters
+from . import headers, motion, parameters
 from .headers import CatalogueError
 from .order import disorder
 from .schema import Field, nearest
 from .tables import Number, Table
-from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, RayModelTraits, SkyTraits, StepControlTraits, ThingTraits, Traits
+from .traits import DiskLayerTraits, IntegratorTraits, MediumTraits, MetTraits, RayModelTraits, SkyTraits, StepControlTraits, ThingTraits, Traits
 
 
 @dataclass(frozen=True)
@@ -132,8 +132,10 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     traits = headers.record(kind, {name: entry for name, entry in header.items() if name in of_slot}, place)
     declared = {part: _declared(header, part, place) for part in _DECLARED}
     known = _parameters(declared["parameters"], slot, file.stem, place)
-    if isinstance(traits, ThingTraits | MediumTraits):
-        for entry in ("reach", "increasing"):
+    if isinstance(traits, MetTraits):
+        if traits.moves:
+            known = _with_motion(known, place)
+        for entry in ("reach", "centre", "increasing"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
         _refuse_disordered_defaults(traits.increasing, known, place)
     path = file.relative_to(root).as_posix()
@@ -151,6 +153,14 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         tuple(headers.record(Table, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["tables"].items()),
         tuple(headers.record(Number, entries, f"{place}: {name}", name=name, file=place) for name, entries in declared["numbers"].items()),
     )
+
+
+def _with_motion(known: Mapping[str, Field], place: str) -> Mapping[str, Field]:
+    """`known` parameters, and behind them those of a place and its motion."""
+    for name in known:
+        if name in motion.FIELDS:
+            raise CatalogueError(f"{place}: parameters.{name}: a kind with moves = true has a {name!r} already; the parameter needs another name")
+    return MappingProxyType({**known, **motion.FIELDS})
 
 
 def _refuse_unknown_numbers(entry: str, names: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:

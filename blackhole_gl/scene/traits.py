@@ -108,30 +108,44 @@ class DiskLayerTraits:
 
 
 @dataclass(frozen=True)
-class ThingTraits:
-    """A kind of thing that rays may meet.
+class MetTraits:
+    """What kinds of things and of media say alike.
 
     Attributes:
-        reach: parameters the sum of whose sizes no part of a thing is farther from the hole than, in r_s.
-        opaque: whether nothing shines through it.
+        reach: parameters the sum of whose sizes no part of an instance is farther from its centre than, in r_s.
+        centre: parameters that are the place of the centre, three; none where it is the hole. A kind that moves has a centre without saying so.
+        moves: whether instances have the parameters of `motion` too, a place at rest or an orbit.
+        round: of a kind that moves, whether a ray meets it alike however it is turned about its centre.
         increasing: parameters none of which may be larger than the one after it.
     """
 
     reach: tuple[str, ...]
-    opaque: bool = True
+    centre: tuple[str, ...] = ()
+    moves: bool = False
+    round: bool = False
     increasing: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.centre) not in (0, 3):
+            raise ValueError(f"centre: got {len(self.centre)} names; allowed are three, or none for the hole")
+        if self.centre and self.moves:
+            raise ValueError("centre: a kind that moves has a centre already; allowed is one of centre and moves")
 
 
 @dataclass(frozen=True)
-class MediumTraits:
-    """A kind of medium that rays may go through.
+class ThingTraits(MetTraits):
+    """A kind of thing that rays may meet.
 
     Attributes:
-        reach, increasing: as of a thing.
+        opaque: whether nothing shines through it.
     """
 
-    reach: tuple[str, ...]
-    increasing: tuple[str, ...] = ()
+    opaque: bool = True
+
+
+@dataclass(frozen=True)
+class MediumTraits(MetTraits):
+    """A kind of medium that rays may go through."""
 
 
 @dataclass(frozen=True)

@@ -8,25 +8,41 @@ struct Light {
 
 #if MEETINGS
 struct Sight {
-    vec3 place;     // r_s
-    vec3 towards;   // unit vector along the ray there, towards the camera
-    float energy;   // E_observer/E_infinity
-    bool enters;    // the ray goes into it, traced backwards
+    vec3 place;         // r_s
+    vec3 towards;       // unit vector along the ray there, towards the camera
+    float energy;       // E_observer/E_infinity
+    bool enters;        // the ray goes into it, traced backwards
+    Momentum momentum;  // of the ray there
 };
 
 Sight sight_of(Meeting met, float energy) {
     float r = length(met.place);
     vec3 n = met.place / r;
     vec3 backwards = (0.5 / r) * met.momentum.n_rate - met.momentum.w_rate * n;
-    return Sight(met.place, -normalize(backwards), energy, met.enters);
+    return Sight(met.place, -normalize(backwards), energy, met.enters, met.momentum);
 }
 
-// E_infinity/E_emitter of light from matter at rest at radius r, outside the horizon; 1 in flat space.
-float rest_shift(float r) {
+// E_infinity/E_emitter = 1/(u^t (1 − k_i v^i)) of light that leaves, along the ray, matter of velocity v = dx/dt there (c = 1, x as rays tell it):
+// its own u^t is (−g_tt − 2 g_tφ φ' − g_φφ φ'² − g_rr r'² − g_θθ θ'²)^(−½), by Boyer and Lindquist's metric of the rays' hole, flat where there is none. M = 1.
+// 0 where no matter can move so.
+float emitted_shift(Sight sight, vec3 velocity) {
+    float r = 2.0 * length(sight.place);
+    vec3 n = sight.place * (2.0 / r);
+    float outward = dot(velocity, n);
+    float aside = dot(sight.momentum.n_rate, velocity) / r;  // −k_θ θ' − k_φ φ'
 #if SPACE_TIME_FLAT
-    return 1.0;
+    float clock = 1.0 - dot(velocity, velocity), seen = 1.0 - outward * sight.momentum.w_rate + aside;
 #else
-    return sqrt(max(1.0 - 1.0 / r, 0.0));
+    float a2 = hole_w_factors.x * hole_w_factors.y, a = hole_spin < 0.0 ? -sqrt(a2) : sqrt(a2);
+    float fall = (1.0 - hole_w_factors.x / r) * (1.0 - hole_w_factors.y / r);  // Δ/r²
+    float sigma = 1.0 + a2 * n.z * n.z / (r * r);                              // Σ/r²
+    float turning = n.x * velocity.y - n.y * velocity.x;                       // r sin²θ φ'
+    float around = turning * turning / max(dot(n.xy, n.xy), 1e-12);            // r² sin²θ φ'²
+    float down = dot(velocity, velocity) - outward * outward - around;         // r² θ'²
+    float dragged = 1.0 - a * turning / r;
+    float clock = 1.0 - (1.0 + a2 / (r * r)) * around - 2.0 / (r * sigma) * dragged * dragged - sigma * (outward * outward / fall + down);
+    float seen = 1.0 - outward * sight.momentum.w_rate / fall + aside;
 #endif
+    return sqrt(max(clock, 0.0)) / max(seen, 1e-3);
 }
 #endif

@@ -684,10 +684,10 @@ def preset_switches_never_freeze(hands: Hands) -> None:
 
 def instances_are_made_edited_and_removed(hands: Hands) -> None:
     """Things in the panel, of the kinds in tests/unit/kinds.py: every kind of value, a new name, another kind, and gone."""
-    hands.choose("##kind of new things", "Sphere##sphere", table="")
+    hands.choose("##kind of new things", "Globe##globe", table="")
     hands.fill("##name of new things", "moon")
     hands.click("Add##things")
-    assert hands.scene.things["moon"].kind == "sphere"
+    assert hands.scene.things["moon"].kind == "globe"
     hands.fill("##things.moon.radius", 2.5)
     hands.fill("##things.moon.count", 4)
     hands.click("##things.moon.glows")
@@ -716,11 +716,11 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     hands.choose("##things.luna.kind", "Cube##cube", table="values of things.luna/")
     assert dict(hands.scene.things["luna"].values) == {"edge": 2.0, "radius": 0.5, "glows": True}
     hands.click("Add##things")  # the kind picked last
-    assert list(hands.scene.things) == ["luna", "sphere"], "a name that is free is given where none is typed"
-    hands.fill("##name of things.sphere", "luna")
+    assert list(hands.scene.things) == ["luna", "globe"], "a name that is free is given where none is typed"
+    hands.fill("##name of things.globe", "luna")
     assert hands.state.notice.is_error and "things.luna: there is one already" in hands.state.notice.text
     hands.click("Remove##things.luna")
-    assert list(hands.scene.things) == ["sphere"]
+    assert list(hands.scene.things) == ["globe"]
     hands.click("Paste TOML")
     assert hands.scene == saved
     hands.choose("##kind of new media", "Cloud##cloud", table="")

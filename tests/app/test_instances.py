@@ -19,8 +19,8 @@ def state(known_kinds: Path) -> WindowState:  # noqa: F811
     folder = known_kinds / "presets"
     folder.mkdir()
     for name, text in {
-        "lit": "[things.moon]\nkind = 'sphere'\nradius = 2.0\ncount = 5\n[things.sun]\nkind = 'sphere'\n",
-        "dim": "[things.moon]\nkind = 'sphere'\nradius = 3.0\n",
+        "lit": "[things.moon]\nkind = 'globe'\nradius = 2.0\ncount = 5\n[things.sun]\nkind = 'globe'\n",
+        "dim": "[things.moon]\nkind = 'globe'\nradius = 3.0\n",
         "bare": "[post]\ngamma = 2.0\n",
     }.items():
         (folder / f"{name}.toml").write_text(f'group = "look"\n{text}', encoding="utf-8")
@@ -53,7 +53,7 @@ def test_a_refused_edit_is_a_notice_and_changes_nothing(state: WindowState) -> N
 
 def test_files_pictures_and_the_clipboard_carry_instances(state: WindowState, tmp_path: Path) -> None:
     picture = tmp_path / "painted.png"
-    state.change({"things.moon.kind": "sphere", "things.moon.image": str(picture), "things.moon.path": [{"time": 2.0}]})
+    state.change({"things.moon.kind": "globe", "things.moon.image": str(picture), "things.moon.path": [{"time": 2.0}]})
     scene = state.scene
     text = scene_files.text_of(state)
     state.file = str(tmp_path / "mine.toml")

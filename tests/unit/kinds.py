@@ -10,8 +10,8 @@ import pytest
 from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import catalogue, instances
 
-SPHERE = '''/*---
-label = "Sphere"
+GLOBE = '''/*---
+label = "Globe"
 summary = "A ball."
 source = "own"
 slot = "thing"
@@ -105,7 +105,7 @@ help = "How much there is."
 
 def put(folder: Path) -> Path:
     """Writes the kinds below the configuration folder `folder`; returns its shader folder."""
-    for path, text in (("things/sphere.glsl", SPHERE), ("things/cube.glsl", CUBE), ("media/cloud.glsl", CLOUD)):
+    for path, text in (("things/globe.glsl", GLOBE), ("things/cube.glsl", CUBE), ("media/cloud.glsl", CLOUD)):
         file = folder / "shaders" / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
@@ -114,7 +114,7 @@ def put(folder: Path) -> Path:
 
 @pytest.fixture
 def known_kinds(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Sphere, cube and cloud, and no other kinds, are known while a test runs; the configuration folder that they lie in."""
+    """Globe, cube and cloud, and no other kinds, are known while a test runs; the configuration folder that they lie in."""
     folder = tmp_path_factory.mktemp("config")
     monkeypatch.setenv("BLACKHOLE_GL_CONFIG_DIR", str(folder))
     found = catalogue.read(shaders_dir(), put(folder))

@@ -19,7 +19,7 @@ from tests.unit.kinds import known_kinds  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("known_kinds")
 
-MOON = {"things.moon.kind": "sphere"}
+MOON = {"things.moon.kind": "globe"}
 
 
 def moon(**values) -> Scene:
@@ -31,9 +31,9 @@ def moon(**values) -> Scene:
 
 def test_a_kind_makes_an_instance_with_its_defaults():
     scene = moon()
-    assert scene.get("things.moon.kind") == "sphere" and scene.get("things.moon.radius") == 1.0
+    assert scene.get("things.moon.kind") == "globe" and scene.get("things.moon.radius") == 1.0
     made = scene.things["moon"]
-    assert isinstance(made, Instance) and made.kind == "sphere"
+    assert isinstance(made, Instance) and made.kind == "globe"
     assert made.values["radii"] == (1.0, 2.0) and made.values["path"] == ()
     assert list(made.values) == ["radius", "count", "glows", "pattern", "caption", "image", "radii", "path"]
     assert Scene().things == {} and Scene() != scene
@@ -68,7 +68,7 @@ def test_another_kind_begins_with_its_own_values_where_the_old_ones_would_be_out
 
 
 def test_things_and_media_are_told_apart_and_keep_their_order():
-    scene = Scene().with_values({"media.haze.kind": "cloud", "things.b.kind": "cube", "things.a.kind": "sphere"})
+    scene = Scene().with_values({"media.haze.kind": "cloud", "things.b.kind": "cube", "things.a.kind": "globe"})
     assert list(scene.things) == ["b", "a"] and list(scene.media) == ["haze"]
     assert list(scene.with_values({"things.b.edge": 3.0}).things) == ["b", "a"]
     assert scene.get("media.haze.density") == 1.0
@@ -83,12 +83,12 @@ def test_fields_of_a_scene_are_the_fixed_ones_and_those_of_its_instances():
     assert scene.keys() == tuple(known) and list(scene.values()) == list(known)
     item = known["things.moon.radius"]
     assert (item.key, item.unit, item.high) == ("things.moon.radius", "r_s", 50.0) and scene.field("things.moon.radius") == item
-    assert known["things.moon.kind"].options == ("cube", "sphere")
+    assert known["things.moon.kind"].options == ("cube", "globe")
     assert Scene().with_values(scene.values()) == scene
 
 
 def test_instances_are_taken_out_and_renamed_at_their_place():
-    scene = Scene().with_values({"things.a.kind": "cube", "things.b.kind": "sphere", "things.b.radius": 2.0, "things.c.kind": "cube"})
+    scene = Scene().with_values({"things.a.kind": "cube", "things.b.kind": "globe", "things.b.radius": 2.0, "things.c.kind": "cube"})
     assert list(scene.without("things.b").things) == ["a", "c"]
     renamed = scene.renamed("things.b", "sun")
     assert list(renamed.things) == ["a", "sun", "c"] and renamed.get("things.sun.radius") == 2.0
@@ -118,16 +118,16 @@ def test_the_order_of_a_frozen_map_counts_and_a_plain_dictionary_is_compared_by_
     [
         ("things.mon.radius", 1.0, "things.mon.radius: there is no thing 'mon'; allowed here are moon; did you mean moon?"),
         ("media.mon.density", 1.0, "media.mon.density: there is no medium 'mon'; there is none in this scene. Allowed to make one is its kind: media.mon.kind"),
-        ("things.sun.kind", "sphre", "things.sun.kind: got 'sphre'; allowed is one of cube, sphere; did you mean sphere?"),
-        ("things.sun.kind", ["sphere"], "things.sun.kind: got a list; allowed is one of cube, sphere"),
-        ("things.moon.raduis", 1.0, "things.moon.raduis: a sphere has no 'raduis'; allowed are kind, radius, count"),
+        ("things.sun.kind", "glbe", "things.sun.kind: got 'glbe'; allowed is one of cube, globe; did you mean globe?"),
+        ("things.sun.kind", ["globe"], "things.sun.kind: got a list; allowed is one of cube, globe"),
+        ("things.moon.raduis", 1.0, "things.moon.raduis: a globe has no 'raduis'; allowed are kind, radius, count"),
         ("things.moon.raduis", 1.0, "did you mean radius?"),
         ("things.moon.radius", 99.0, "things.moon.radius: got 99.0; allowed is a number from 0.1 to 50 r_s"),
         ("things.moon.pattern", "checkered", "allowed is one of plain, chequered; did you mean chequered?"),
         ("things.moon", 1.0, "things.moon: an instance has no value of its own; allowed are kind, radius"),
-        ("things.2nd.kind", "sphere", "things.2nd: got the name '2nd'; allowed are letters, digits and _"),
-        ("things." + "x" * 33 + ".kind", "sphere", "at most 32 of them"),
-        ("things..kind", "sphere", "got the name ''"),
+        ("things.2nd.kind", "globe", "things.2nd: got the name '2nd'; allowed are letters, digits and _"),
+        ("things." + "x" * 33 + ".kind", "globe", "at most 32 of them"),
+        ("things..kind", "globe", "got the name ''"),
         ("things.moon.caption", "x" * 21, "allowed is text of at most 20 characters"),
         ("things.moon.caption", "\ud800", "allowed is text"),
         ("things.moon.caption", 3, "got 3; allowed is text"),
@@ -160,7 +160,7 @@ def test_errors_name_the_key_what_was_given_and_what_is_allowed(key, value, word
         (lambda scene: scene.without("things.moon.radius"), "things.moon.radius: no instance"),
         (lambda scene: scene.renamed("things.moon", "a b"), "things.a b: got the name 'a b'"),
         (lambda scene: scene.with_values({"things.sun.kind": "cube"}).renamed("things.moon", "sun"), "things.sun: there is one already"),
-        (lambda scene: scene.get("things.moon.edge"), "things.moon.edge: a sphere has no 'edge'"),
+        (lambda scene: scene.get("things.moon.edge"), "things.moon.edge: a globe has no 'edge'"),
         (lambda scene: scene.get("things.sun.radius"), "there is no thing 'sun'"),
         (lambda scene: scene.get("things"), "things: no such key"),
     ],
@@ -173,7 +173,7 @@ def test_what_cannot_be_done_is_said(act, words):
 def test_without_any_kind_none_can_be_made(monkeypatch):
     bare = catalogue.Catalogue({**catalogue._catalogue().plug_ins, "thing": {}}, ())
     monkeypatch.setattr(catalogue, "_catalogue", lambda: bare)
-    with pytest.raises(SceneError, match="things.moon.kind: got 'sphere'; allowed is nothing: there is no kind of thing"):
+    with pytest.raises(SceneError, match="things.moon.kind: got 'globe'; allowed is nothing: there is no kind of thing"):
         moon()
 
 
@@ -193,7 +193,7 @@ def preset_file(tmp_path):
 
 WHOLE = """
 [things.moon]
-kind = "sphere"
+kind = "globe"
 radius = 2
 glows = true
 caption = "Moon"
@@ -232,12 +232,12 @@ def test_a_later_preset_merges_into_an_instance(preset_file):
         ("[things]\nmoon = 3\n", 2, r"things.moon: got 3; allowed is a table, \[things.moon\]"),
         ("[[things.moon]]\nkind = 'cube'\n", 1, "things.moon: got a list; allowed is a table"),
         ("[things.'a b']\nkind = 'cube'\n", 1, "things.a b: got the name 'a b'; allowed are letters"),
-        ("[things.moon]\n\nkind = 'sphre'\n", 3, "things.moon.kind: got 'sphre'; allowed is one of cube, sphere; did you mean sphere"),
-        ("[things.moon]\nkind = 3\n", 2, "things.moon.kind: got 3; allowed is one of cube, sphere"),
+        ("[things.moon]\n\nkind = 'glbe'\n", 3, "things.moon.kind: got 'glbe'; allowed is one of cube, globe; did you mean globe"),
+        ("[things.moon]\nkind = 3\n", 2, "things.moon.kind: got 3; allowed is one of cube, globe"),
         ("[things.moon]\nkind = 'cube'\nedge = '3,5'\n", 3, "things.moon.edge: got '3,5'; .*; write 3.5, not 3,5"),
         ("[things.moon]\nkind = 'cube'\nedge = 3e9\n", 3, "things.moon.edge: got 3000000000.0; allowed is a number from 0.1 to 50"),
         ("[things.moon]\nradius = 1.0\n", 2, "things.moon.radius: there is no thing 'moon'; there is none in this scene. Allowed to make one is its kind"),
-        ("[things.moon]\nkind = 'sphere'\nradii = [1.0,\n -2.0]\n", 3, "things.moon.radii: entry 2: got -2.0; allowed is a number from 0 to 9"),
+        ("[things.moon]\nkind = 'globe'\nradii = [1.0,\n -2.0]\n", 3, "things.moon.radii: entry 2: got -2.0; allowed is a number from 0 to 9"),
         (WHOLE.replace("time = 2.0", "time = -2.0"), 11, "things.moon.path: entry 2, time: got -2.0"),
     ],
 )
@@ -270,14 +270,14 @@ def test_what_this_version_does_not_know_of_a_record_in_a_list_is_told_and_the_r
 
 def test_a_layer_that_does_not_fit_what_lies_below_is_named_with_its_line(preset_file):
     below, above = preset_file(WHOLE, "a.toml"), preset_file("\n[things.moon]\nedge = 1.0\n", "b.toml")
-    with pytest.raises(PresetError, match=r"b\.toml, line 3: things.moon.edge: a sphere has no 'edge'"):
+    with pytest.raises(PresetError, match=r"b\.toml, line 3: things.moon.edge: a globe has no 'edge'"):
         presets.load([below, above])
 
 
 @pytest.mark.parametrize(
     "overrides, key, value",
     [
-        ({"things.moon.radius": "3", "things.moon.kind": "sphere"}, "things.moon.radius", 3.0),
+        ({"things.moon.radius": "3", "things.moon.kind": "globe"}, "things.moon.radius", 3.0),
         ({**MOON, "things.moon.radii": "[1, 2.5]"}, "things.moon.radii", (1.0, 2.5)),
         ({**MOON, "things.moon.radii": [1, 2.5]}, "things.moon.radii", (1.0, 2.5)),
         ({**MOON, "things.moon.path": "[{time = 3}]"}, "things.moon.path", (FrozenMap({"time": 3.0, "ease": "smooth", "image": ""}),)),
@@ -298,9 +298,9 @@ def test_overrides_are_read_by_the_kind_of_their_field(overrides, key, value):
         ({**MOON, "things.moon.radii": "1, 2"}, "things.moon.radii: got '1, 2'; allowed is a list of 0 to 4 entries"),
         ({**MOON, "things.moon.radii": "[1]\nother = 3"}, "things.moon.radii: got .*; allowed is a list"),
         ({**MOON, "things.moon.radii": "[99]"}, "things.moon.radii: entry 1: got 99; allowed"),
-        ({"things.moon.kind": "ball"}, "things.moon.kind: got 'ball'; allowed is one of cube, sphere"),
+        ({"things.moon.kind": "ball"}, "things.moon.kind: got 'ball'; allowed is one of cube, globe"),
         ({"thinks.moon.kind": "cube"}, "thinks.moon.kind: no such key"),
-        ({"things": "3"}, r"things: it holds any number of named things; allowed is things.NAME.kind=KIND, which makes one \(kinds: cube, sphere\)"),
+        ({"things": "3"}, r"things: it holds any number of named things; allowed is things.NAME.kind=KIND, which makes one \(kinds: cube, globe\)"),
         ({"hole": "3"}, "hole: it is a table and has no value of its own; allowed here are hole.spin, "),
     ],
 )
@@ -313,7 +313,7 @@ def test_a_wrong_override_is_named(overrides, says):
 
 
 def test_a_presets_paths_start_at_its_own_folder(preset_file, tmp_path):
-    path = preset_file("[things.moon]\nkind = 'sphere'\nimage = 'pictures/moon.png'\npath = [{image = 'later.png'}]\n", "deep/mine.toml")
+    path = preset_file("[things.moon]\nkind = 'globe'\nimage = 'pictures/moon.png'\npath = [{image = 'later.png'}]\n", "deep/mine.toml")
     scene = presets.load([path])
     assert scene.get("things.moon.image") == str(tmp_path / "deep" / "pictures" / "moon.png")
     assert scene.get("things.moon.path")[0]["image"] == str(tmp_path / "deep" / "later.png")
@@ -339,8 +339,8 @@ def test_a_path_on_the_command_line_starts_at_the_working_folder(tmp_path, monke
 
 _texts = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
 _columns = st.fixed_dictionaries({}, optional={"time": st.floats(0.0, 1e6), "ease": st.sampled_from(["smooth", "linear"])})
-_spheres = st.fixed_dictionaries(
-    {"kind": st.just("sphere")},
+_globes = st.fixed_dictionaries(
+    {"kind": st.just("globe")},
     optional={
         "radius": st.floats(0.1, 50.0),
         "count": st.integers(1, 9),
@@ -354,7 +354,7 @@ _spheres = st.fixed_dictionaries(
 )
 _cubes = st.fixed_dictionaries({"kind": st.just("cube")}, optional={"edge": st.floats(0.5, 50.0)})  # no smaller than the radius of its corners
 _names = st.from_regex(r"\A[A-Za-z][A-Za-z0-9_]{0,31}\Z")
-_scenes = st.dictionaries(_names, _spheres | _cubes, max_size=3).map(
+_scenes = st.dictionaries(_names, _globes | _cubes, max_size=3).map(
     lambda things: Scene().with_values({f"things.{name}.{entry}": value for name, values in things.items() for entry, value in values.items()})
 )
 
@@ -375,10 +375,10 @@ def test_a_picture_carries_the_instances(tmp_path_factory, scene):
     assert presets.from_png(path) == scene
 
 
-_words = st.sampled_from(["kind", "radius", "radii", "path", "time", "sphere", "moon", "caption", "image", "enabled"]) | st.text(max_size=4)
-_scalars = st.booleans() | st.integers() | st.floats() | st.text(max_size=8) | st.sampled_from(["sphere", "cube"]) | st.datetimes()
+_words = st.sampled_from(["kind", "radius", "radii", "path", "time", "globe", "moon", "caption", "image", "enabled"]) | st.text(max_size=4)
+_scalars = st.booleans() | st.integers() | st.floats() | st.text(max_size=8) | st.sampled_from(["globe", "cube"]) | st.datetimes()
 _trees = st.recursive(_scalars, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(_words, inner, max_size=4), max_leaves=12)
-_made = st.dictionaries(_words, _trees, max_size=4).map(lambda tree: {"kind": "sphere"} | tree)
+_made = st.dictionaries(_words, _trees, max_size=4).map(lambda tree: {"kind": "globe"} | tree)
 
 
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -412,7 +412,7 @@ def test_whatever_is_given_is_taken_whole_or_refused_with_a_sentence(name, value
 
 
 def test_defaults_are_not_written_but_the_kind_is():
-    assert presets.dumps(moon()) == '[things.moon]\nkind = "sphere"\n'
+    assert presets.dumps(moon()) == '[things.moon]\nkind = "globe"\n'
     assert presets.dumps(moon(radius=2.0, path=[{"time": 1.0}])) == (
-        '[things.moon]\nkind = "sphere"\nradius = 2.0\n\n[[things.moon.path]]\ntime = 1.0\nease = "smooth"\nimage = ""\n'
+        '[things.moon]\nkind = "globe"\nradius = 2.0\n\n[[things.moon.path]]\ntime = 1.0\nease = "smooth"\nimage = ""\n'
     )

@@ -1,0 +1,107 @@
+"""Where instances of a scene are at a scene time, and how they move there: places in r_s, velocities dx/dt with c = 1, all in float64.
+
+Places are those that rays tell: x = r (sin θ cos φ, sin θ sin φ, cos θ), in Kerr with Boyer and Lindquist's r, θ and φ. Phases are wrapped before they become
+single precision, so that nothing runs away after hours.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..scene import Instance, Scene, catalogue, met
+from ..scene.schema import number_of
+from ..scene.traits import MetTraits
+from ..shapes import Float
+from . import relativity
+from .observer import cos_sin_deg
+from .space_time import SpaceTime
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One instance at one scene time.
+
+    Attributes:
+        centre: float64 (3,), r_s.
+        reach: r_s from there, beyond which no part of it lies: with `centre` its bounding sphere.
+        velocity: dx/dt of the centre, float64 (3,).
+        spin: angular velocity about the centre, float64 (3,), rad c/r_s.
+        attitude: unit quaternion (x, y, z, w), float64 (4,), that turns the instance's own axes to the world's.
+    """
+
+    centre: Float[np.ndarray, " 3"]
+    reach: float
+    velocity: Float[np.ndarray, " 3"]
+    spin: Float[np.ndarray, " 3"]
+    attitude: Float[np.ndarray, " 4"]
+
+
+_STILL = np.zeros(3)
+_UPRIGHT = np.array([0.0, 0.0, 0.0, 1.0])
+
+
+def motions(scene: Scene, slot: str, where: SpaceTime, time: float) -> Iterator[tuple[Instance, Motion]]:
+    """The instances of `slot`, ``thing`` or ``medium``, in the scene's order, each with its motion at `time` (r_s/c)."""
+    kinds = catalogue.plug_ins(slot)
+    for instance in met.instances(scene, slot):
+        yield instance, of(instance, kinds[instance.kind].traits, where, time)
+
+
+def of(instance: Instance, traits: MetTraits, where: SpaceTime, time: float) -> Motion:
+    """The motion of `instance`, whose kind has `traits`, at scene time `time` (r_s/c)."""
+    reach = met.extent(instance, traits)
+    if not traits.moves:
+        centre = np.array([_number(instance, name) for name in traits.centre]) if traits.centre else _STILL
+        return Motion(centre, reach, _STILL, _STILL, _UPRIGHT)
+    centre, velocity = (_at_rest(instance), _STILL) if instance.values["path"] == "fixed" else _on_circle(instance, where, time)
+    axis, attitude = _attitude(instance, time)
+    return Motion(centre, reach, velocity, _number(instance, "turn_rate") * axis, attitude)
+
+
+def moves(instance: Instance, traits: MetTraits) -> bool:
+    """Whether rays meet `instance` elsewhere at another time."""
+    turns = not traits.round and traits.moves and instance.values["turn_rate"] != 0.0
+    return turns or traits.moves and instance.values["path"] != "fixed"
+
+
+def _at_rest(instance: Instance) -> Float[np.ndarray, " 3"]:
+    return np.array([_number(instance, name) for name in "xyz"])
+
+
+def _on_circle(instance: Instance, where: SpaceTime, time: float) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
+    radius, rate = _number(instance, "orbit_radius"), orbit_rate(instance, where)
+    cos_tilt, sin_tilt = cos_sin_deg(_number(instance, "orbit_tilt_deg"))
+    cos_node, sin_node = cos_sin_deg(_number(instance, "orbit_node_deg"))
+    along = np.array([cos_node, sin_node, 0.0])
+    across = np.array([-cos_tilt * sin_node, cos_tilt * cos_node, sin_tilt])
+    phase = math.radians(_number(instance, "orbit_phase_deg")) + math.remainder(rate * time, 2.0 * math.pi)
+    outward = math.cos(phase) * along + math.sin(phase) * across
+    onward = math.cos(phase) * across - math.sin(phase) * along
+    return radius * outward, radius * rate * onward
+
+
+def orbit_rate(instance: Instance, where: SpaceTime) -> float:
+    """dφ/dt in rad c/r_s of an `instance` on a circle: counter-clockwise seen from +z is positive, where the circle is not tilted."""
+    sense = str(instance.values["orbit_sense"])
+    if instance.values["path"] == "geodesic":
+        return float(relativity.orbital_frequency(_number(instance, "orbit_radius"), where.spin, sense))
+    return _number(instance, "orbit_rate") * where.orbit_sense(sense)
+
+
+def _attitude(instance: Instance, time: float) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 4"]]:
+    """The instance's own axis in the world, and what turns its axes to the world's: a turn about z, a lean towards x, a turn about z."""
+    tilt, azimuth = (math.radians(_number(instance, name)) for name in ("axis_tilt_deg", "axis_azimuth_deg"))
+    turn = math.radians(_number(instance, "turn_deg")) + math.remainder(_number(instance, "turn_rate") * time, 2.0 * math.pi)
+    axis = np.array([math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), math.cos(tilt)])
+    difference, total = 0.5 * (azimuth - turn), 0.5 * (azimuth + turn)
+    lean = math.sin(0.5 * tilt), math.cos(0.5 * tilt)
+    # R_z(azimuth) R_y(tilt) R_z(turn) as a quaternion.
+    return axis, np.array([-lean[0] * math.sin(difference), lean[0] * math.cos(difference), lean[1] * math.sin(total), lean[1] * math.cos(total)])
+
+
+def _number(instance: Instance, name: str) -> float:
+    return float(number_of(instance.values[name]))

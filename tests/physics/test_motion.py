@@ -1,0 +1,89 @@
+"""Where instances are at a time: circles at the geodesic rate or their own, turns, and the spheres that hold them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from blackhole_gl.physics import motion, relativity
+from blackhole_gl.physics.space_time import space_time
+from blackhole_gl.scene import Scene, catalogue, met, presets
+
+
+def _scene(spin: float = 0.9, **values: object) -> Scene:
+    return presets.load(["kerr"], {"hole.spin": spin, "things.moon.kind": "sphere", **{f"things.moon.{name}": value for name, value in values.items()}})
+
+
+def _motion(scene: Scene, time: float) -> motion.Motion:
+    ((_, found),) = motion.motions(scene, "thing", space_time(scene), time)
+    return found
+
+
+@pytest.mark.parametrize("spin", [0.9, 0.0, -0.6])
+@pytest.mark.parametrize("sense", ["prograde", "retrograde"])
+def test_a_geodesic_is_gone_round_at_its_rate(spin: float, sense: str) -> None:
+    """By the closed form, also after a hundred thousand turns: the phase is wrapped in float64."""
+    scene = _scene(spin, path="geodesic", orbit_radius=7.0, orbit_sense=sense, orbit_phase_deg=30.0)
+    rate = float(relativity.orbital_frequency(7.0, spin, sense))
+    for time in (0.0, 12.5, 1e7):
+        angle = math.radians(30.0) + rate * time
+        found = _motion(scene, time)
+        np.testing.assert_allclose(found.centre, 7.0 * np.array([math.cos(angle), math.sin(angle), 0.0]), atol=1e-7)
+        np.testing.assert_allclose(found.velocity, 7.0 * rate * np.array([-math.sin(angle), math.cos(angle), 0.0]), atol=1e-8)
+
+
+def test_a_tilted_circle_keeps_its_plane_and_its_own_rate() -> None:
+    values = {"path": "circle", "orbit_radius": 5.0, "orbit_rate": 0.2, "orbit_tilt_deg": 40.0, "orbit_node_deg": 25.0}
+    tilt, node = math.radians(40.0), math.radians(25.0)
+    axis = np.array([math.sin(tilt) * math.sin(node), -math.sin(tilt) * math.cos(node), math.cos(tilt)])
+    scene = _scene(**values)
+    np.testing.assert_allclose(_motion(scene, 0.0).centre, 5.0 * np.array([math.cos(node), math.sin(node), 0.0]), atol=1e-12)
+    assert _motion(scene, 0.1).centre[2] > 0.0, "it rises at its node"
+    for time in (3.0, 11.0):
+        found = _motion(scene, time)
+        assert np.linalg.norm(found.centre) == pytest.approx(5.0) and found.centre @ axis == pytest.approx(0.0, abs=1e-12)
+        np.testing.assert_allclose(found.velocity, 0.2 * np.cross(axis, found.centre), atol=1e-12)
+
+
+def test_the_velocity_is_the_change_of_place() -> None:
+    scene = _scene(path="geodesic", orbit_radius=6.0, orbit_tilt_deg=70.0, orbit_node_deg=-50.0, orbit_phase_deg=200.0)
+    before, here, after = (_motion(scene, 40.0 + step) for step in (-1e-4, 0.0, 1e-4))
+    np.testing.assert_allclose((after.centre - before.centre) / 2e-4, here.velocity, atol=1e-8)
+
+
+def _turned(quaternion: np.ndarray, v: np.ndarray) -> np.ndarray:
+    axis, w = quaternion[:3], quaternion[3]
+    return v + 2.0 * np.cross(axis, np.cross(axis, v) + w * v)
+
+
+def test_it_turns_about_its_own_axis() -> None:
+    scene = _scene(axis_tilt_deg=60.0, axis_azimuth_deg=35.0, turn_deg=20.0, turn_rate=0.3)
+    axis = np.array([math.sin(math.radians(60.0)) * math.cos(math.radians(35.0)), math.sin(math.radians(60.0)) * math.sin(math.radians(35.0)), 0.5])
+    here, later = _motion(scene, 2.0), _motion(scene, 2.0001)
+    for found in (here, later):
+        assert np.linalg.norm(found.attitude) == pytest.approx(1.0)
+        np.testing.assert_allclose(_turned(found.attitude, np.array([0.0, 0.0, 1.0])), axis, atol=1e-12)
+    mark = np.array([1.0, 0.2, -0.3])
+    change = (_turned(later.attitude, mark) - _turned(here.attitude, mark)) / 1e-4
+    np.testing.assert_allclose(change, np.cross(here.spin, _turned(here.attitude, mark)), atol=1e-4)
+    np.testing.assert_allclose(here.spin, 0.3 * axis)
+
+
+def test_what_moves_is_told_from_what_rests_or_only_turns() -> None:
+    traits = catalogue.plug_ins("thing")["sphere"].traits
+    for values, expected in (({}, False), ({"turn_rate": 1.0}, False), ({"path": "geodesic"}, True), ({"path": "circle"}, True)):
+        assert motion.moves(_scene(**values).things["moon"], traits) == expected, "a sphere that turns is met where it was"
+    assert not motion.moves(presets.load(["kerr"], {"things.ring.kind": "annulus"}).things["ring"], catalogue.plug_ins("thing")["annulus"].traits)
+
+
+def test_the_reach_of_a_scene_holds_every_bounding_sphere_at_any_time() -> None:
+    orbiting = _scene(path="circle", orbit_radius=6.0, radius=1.5, orbit_tilt_deg=50.0)
+    assert met.reach(orbiting) == pytest.approx(7.5)
+    resting = _scene(x=3.0, y=-4.0, z=12.0, radius=2.0)
+    assert met.reach(resting) == pytest.approx(15.0)
+    for scene in (orbiting, resting):
+        for time in np.linspace(0.0, 60.0, 13):
+            found = _motion(scene, float(time))
+            assert np.linalg.norm(found.centre) + found.reach <= met.reach(scene) * (1.0 + 1e-12)
