@@ -27,7 +27,10 @@ def test_time_traces_anew_what_moves_and_nothing_that_rests_or_turns(renderer: R
 
 def test_an_orbiting_sphere_is_met_where_it_is_at_the_time(renderer: Renderer) -> None:
     """Every meeting lies on the sphere about the place that the closed form gives."""
-    scene = _scene(path="circle", orbit_radius=9.0, orbit_rate=0.1, radius=2.0).with_values({"camera.inclination_deg": 30.0, "camera.distance": 40.0})
+    scene = _scene(path="circle", orbit_radius=9.0, orbit_rate=0.1, radius=2.0)
+    scene = scene.with_values(
+        {"camera.inclination_deg": 30.0, "camera.distance": 40.0, "rays.model": "kerr", "rays.integrator": "rk4", "rays.step_angle": 0.05}
+    )
     for time in (0.0, 20.0, 45.0):
         renderer.render(scene, time, (160, 90))
         hits = renderer.hits()
