@@ -17,7 +17,7 @@ void main() {
     bool disk = false;
 #if ORDERS > 0
     for (int n = 0; n < ORDERS; ++n)
-        disk = may_be_covered(crossing_of(hits.crossing[n])) || disk;
+        disk = may_be_covered(crossing_of(hits.crossing[n], hits.fate)) || disk;
 #endif
 #if MEETINGS
     disk = disk || hits.meeting[0].kind >= 0;

@@ -125,12 +125,12 @@ vec3 way_out(Meeting met, Sight sight, Meeting next, bool kept) {
 
 #if MEETINGS
 // The same after the things and media that come when `crossings` of the disk's plane have gone before.
-Light pass_meetings(Light light, Hits hits, int crossings, float energy) {
+Light pass_meetings(Light light, Hits hits, Sight sights[MEETINGS], int crossings) {
     for (int k = 0; k < MEETINGS; ++k) {
         Meeting met = hits.meeting[k];
         if (met.kind < 0 || met.before != crossings) continue;
         Light own = Light(vec3(0.0), vec3(1.0));
-        Sight sight = sight_of(met, energy);
+        Sight sight = sights[k];
 #each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
 #if MEETINGS > 1
         vec3 end = way_out(met, sight, hits.meeting[min(k + 1, MEETINGS - 1)], k + 1 < MEETINGS);
@@ -148,18 +148,21 @@ void main() {
 
     Light light = Light(vec3(0.0), vec3(1.0));
 #if MEETINGS
+    Sight sights[MEETINGS];
+    for (int k = 0; k < MEETINGS; ++k) sights[k] = sight_of(hits.meeting[k], energy);
     for (int n = 0; n < 3; ++n) {
-        light = pass_meetings(light, hits, n, energy);
+        light = pass_meetings(light, hits, sights, n);
 #if ORDERS > 0
-        Crossing crossing = crossing_of(hits.crossing[n]);
+        Crossing crossing = crossing_of(hits.crossing[n], hits.fate);
         if (may_be_covered(crossing)) light = pass_order(light, hits, crossing, energy);
 #endif
     }
-    light = pass_meetings(light, hits, 3, energy);
+    light = pass_meetings(light, hits, sights, 3);
     passed = vec4(light.passed, 1.0);
 #else
     // The crossings that may count come first, in order; at least one does in every pixel that gets here.
-    Crossing first = crossing_of(hits.crossing[0]), second = crossing_of(hits.crossing[1]), third = crossing_of(hits.crossing[2]);
+    Crossing first = crossing_of(hits.crossing[0], hits.fate), second = crossing_of(hits.crossing[1], hits.fate);
+    Crossing third = crossing_of(hits.crossing[2], hits.fate);
     bool more = may_be_covered(second), last = may_be_covered(third);
     if (!more) { second = third; more = last; last = false; }
     if (!may_be_covered(first)) { first = second; second = third; more = last; last = false; }

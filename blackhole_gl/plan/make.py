@@ -19,6 +19,9 @@ SPARE_TURNS = 3.0
 # Models whose closed form is a first-order one state a larger march_bound in their header.
 MARCH_BOUND = 6.0
 
+# How far beyond all that rays may meet the march reaches: from infinity it begins there, and it must not begin on a surface.
+_BEYOND = 1.05
+
 # What is marched, or tells its paths, in each space-time.
 _MARCHED = {"flat": "flat", "schwarzschild": "schwarzschild", "kerr": "kerr"}
 
@@ -64,7 +67,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         step_length=scene.rays.step_length * stretch,
         step_angle=scene.rays.step_angle * stretch,
         max_steps=max_steps,
-        march_bound=max(_march_bound(scene, model), reach),
+        march_bound=max(_march_bound(scene, model), _BEYOND * reach),
         orders=orders,
         disk_inner=inner,
         disk_outer=outer,
@@ -232,7 +235,7 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     shortest = control.traits.shortest
     if model.traits.marches_in == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
-    bound = max(_march_bound(scene, model), met.reach(scene))
+    bound = max(_march_bound(scene, model), _BEYOND * met.reach(scene))
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere

@@ -13,9 +13,10 @@ import numpy as np
 
 from ..physics import motion
 from ..plan import Plan
-from ..scene import Instance, Scene, catalogue, met
+from ..scene import Instance, Scene, catalogue, met, surfaces
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field, Value, number_of
+from . import lamps
 
 _NUMBERS = ("float", "int", "switch", "choice")
 """Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the options."""
@@ -26,7 +27,9 @@ _MOTION = ("bound", "velocity", "spin", "attitude")
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
     """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind."""
-    lines: list[str] = []
+    kinds = list(kinds)
+    lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
+    lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
         lines += [f"uniform sampler2D {name}_table;", f"#define {name}_count textureSize({name}_table, 0).y"]
@@ -37,7 +40,21 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
             value = f"texelFetch({name}_table, ivec2({place // 4}, i), 0).{'xyzw'[place % 4 : place % 4 + _width(item)]}"
             read = {"float": value, "list": value, "switch": f"({value} > 0.5)"}.get(item.kind, f"int({value})")
             lines.append(f"#define {name}_{item.key}(i) {read}")
+        if _has_surface(kind):
+            lines.append(f"#define {name}_finish(i) Finish({', '.join(f'{name}_{key}(i)' for key in surfaces.SURFACE)})")
     return "\n".join(lines)
+
+
+def _finish() -> list[str]:
+    """How an instance looks, as a record, and numbers for the options of its choices, such as ``SURFACE_CHECKER``."""
+    types = {"choice": "int", "switch": "bool", "list": "vec3"}
+    members = (f"{types.get(item.kind, item.kind)} {key};" for key, item in surfaces.SURFACE.items())
+    options = ((f"{key}_{word}", number) for key, item in surfaces.SURFACE.items() for number, word in enumerate(item.options))
+    return [f"struct Finish {{ {' '.join(members)} }};", *(f"#define {name.upper()} {number}" for name, number in options)]
+
+
+def _has_surface(kind: PlugIn) -> bool:
+    return kind.slot == "thing" and kind.traits.surface
 
 
 def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
@@ -57,7 +74,7 @@ def used(scene: Scene) -> list[PlugIn]:
 
 
 def key(plan: Plan, time: float) -> tuple:
-    """What hits depend on here: every instance, and the places of those that move."""
+    """What hits depend on here: every instance but for its surface, and the places of those that move."""
     return tuple(_key_of(instance, kinds[instance.kind], plan, time) for slot, kinds in _catalogues() for instance in met.instances(plan.scene, slot))
 
 
@@ -66,14 +83,16 @@ def _catalogues() -> list[tuple[str, Mapping[str, PlugIn]]]:
 
 
 def _key_of(instance: Instance, kind: PlugIn, plan: Plan, time: float) -> tuple:
+    looks = surfaces.SURFACE if _has_surface(kind) else {}
+    shape = kind.slot, instance.kind, tuple(value for name, value in instance.values.items() if name not in looks)
     if not motion.moves(instance, kind.traits):
-        return kind.slot, instance
+        return shape
     here = motion.of(instance, kind.traits, plan.space_time, time)
-    return kind.slot, instance, here.centre.tobytes(), b"" if kind.traits.round else here.attitude.tobytes()
+    return *shape, here.centre.tobytes(), b"" if kind.traits.round else here.attitude.tobytes()
 
 
 class InstanceTables:
-    """The tables of the kinds in use."""
+    """The tables of the kinds in use, and that of the lamps."""
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
@@ -81,7 +100,8 @@ class InstanceTables:
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
-        return {f"{kind.slot}_{kind.key}_table": self._texture(kind, _rows(kind, plan, time)) for kind in used(plan.scene)}
+        tables = {f"{kind.slot}_{kind.key}_table": _rows(kind, plan, time) for kind in used(plan.scene)}
+        return {name: self._texture(name, rows) for name, rows in {**tables, "lamps_table": lamps.rows(plan, time)}.items()}
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -89,8 +109,8 @@ class InstanceTables:
             texture.release()
         self._kept = {}
 
-    def _texture(self, kind: PlugIn, rows: np.ndarray) -> moderngl.Texture:
-        name, data, size = f"{kind.slot}_{kind.key}", rows.tobytes(), (rows.shape[1], rows.shape[0])
+    def _texture(self, name: str, rows: np.ndarray) -> moderngl.Texture:
+        data, size = rows.tobytes(), (rows.shape[1], rows.shape[0])
         before, texture = self._kept.get(name, (None, None))
         if texture is None or texture.size != size:
             if texture is not None:

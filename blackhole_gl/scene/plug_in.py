@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 
 from ..resources import shaders_dir
 from ..text_files import TextError, read_text
-from . import headers, motion, parameters
+from . import headers, motion, parameters, surfaces
 from .headers import CatalogueError
 from .order import disorder
 from .schema import Field, nearest
@@ -133,8 +133,8 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     declared = {part: _declared(header, part, place) for part in _DECLARED}
     known = _parameters(declared["parameters"], slot, file.stem, place)
     if isinstance(traits, MetTraits):
-        if traits.moves:
-            known = _with_motion(known, place)
+        for entry, group in groups(traits).items():
+            known = _with_group(known, entry, group, place)
         for entry in ("reach", "centre", "increasing"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
         _refuse_disordered_defaults(traits.increasing, known, place)
@@ -155,12 +155,18 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
     )
 
 
-def _with_motion(known: Mapping[str, Field], place: str) -> Mapping[str, Field]:
-    """`known` parameters, and behind them those of a place and its motion."""
+def groups(traits: MetTraits) -> Mapping[str, Mapping[str, Field]]:
+    """Parameters that kinds have in common, by the entry of the header that asks for them: those that `traits` ask for."""
+    known = {"moves": motion.FIELDS, "surface": surfaces.SURFACE, "shines": surfaces.LAMP}
+    return {entry: group for entry, group in known.items() if getattr(traits, entry, False)}
+
+
+def _with_group(known: Mapping[str, Field], entry: str, group: Mapping[str, Field], place: str) -> Mapping[str, Field]:
+    """`known` parameters, and behind them those that `entry` brings."""
     for name in known:
-        if name in motion.FIELDS:
-            raise CatalogueError(f"{place}: parameters.{name}: a kind with moves = true has a {name!r} already; the parameter needs another name")
-    return MappingProxyType({**known, **motion.FIELDS})
+        if name in group:
+            raise CatalogueError(f"{place}: parameters.{name}: a kind with {entry} = true has a {name!r} already; the parameter needs another name")
+    return MappingProxyType({**known, **group})
 
 
 def _refuse_unknown_numbers(entry: str, names: tuple[str, ...], known: Mapping[str, Field], place: str) -> None:

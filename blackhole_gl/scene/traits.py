@@ -138,9 +138,13 @@ class ThingTraits(MetTraits):
 
     Attributes:
         opaque: whether nothing shines through it.
+        surface: whether instances have the parameters of a surface too, which say how it looks.
+        shines: whether instances have the parameters of a lamp too, and light falls from them on surfaces.
     """
 
     opaque: bool = True
+    surface: bool = False
+    shines: bool = False
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,15 @@ struct Crossing {
     vec2 up;      // change to the pixel above
 };
 
-// A neighbour without such a crossing means that the rays part here (near the critical curve): a wide change stands in.
+// A crossing of a ray of that fate. A neighbour without such a crossing means that the rays part here (near the critical curve): a wide change stands in. But where
+// the neighbour has ended on something before it could cross, nothing is known, and no change is.
 // Takes differences between pixels, so all pixels must run it: keep it outside every branch.
-Crossing crossing_of(vec2 point) {
-    float present = point == vec2(0.0) ? 0.0 : 1.0;
+Crossing crossing_of(vec2 point, int fate) {
+    float present = point != vec2(0.0) ? 1.0 : fate == MET ? 0.5 : 0.0;
+    vec2 parts = abs(vec2(dFdx(present), dFdy(present)));
     Crossing crossing = Crossing(point, dFdx(point), dFdy(point));
-    if (dFdx(present) != 0.0) crossing.right = point;
-    if (dFdy(present) != 0.0) crossing.up = point;
+    if (parts.x != 0.0) crossing.right = parts.x < 1.0 ? vec2(0.0) : point;
+    if (parts.y != 0.0) crossing.up = parts.y < 1.0 ? vec2(0.0) : point;
     return crossing;
 }
 

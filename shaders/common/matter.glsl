@@ -13,13 +13,23 @@ struct Sight {
     float energy;       // E_observer/E_infinity
     bool enters;        // the ray goes into it, traced backwards
     Momentum momentum;  // of the ray there
+    vec3 right, up;     // change of the place to the next pixel on the right and above
 };
 
+// Takes differences between pixels, so all pixels must run it: keep it outside every branch. Where the next pixel meets something else, a pixel's width at
+// the camera stands in for them, at right angles to the ray.
 Sight sight_of(Meeting met, float energy) {
-    float r = length(met.place);
+    float r = max(length(met.place), 1e-6);
     vec3 n = met.place / r;
     vec3 backwards = (0.5 / r) * met.momentum.n_rate - met.momentum.w_rate * n;
-    return Sight(met.place, -normalize(backwards), energy, met.enters, met.momentum);
+    vec3 towards = -backwards / max(length(backwards), 1e-20);
+    float what = float(met.kind + 32 * met.index);
+    vec3 right = dFdx(met.place), up = dFdy(met.place);
+    float away = camera_w > 0.0 ? 2.0 * distance(met.place, camera_n.xyz * (0.5 / camera_w)) : 1.0;
+    vec3 aside = normalize(cross(towards, abs(towards.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
+    if (dFdx(what) != 0.0) right = picture_scale * away * aside;
+    if (dFdy(what) != 0.0) up = picture_scale * away * cross(aside, towards);
+    return Sight(met.place, towards, energy, met.enters, met.momentum, right, up);
 }
 
 // E_infinity/E_emitter = 1/(u^t (1 − k_i v^i)) of light that leaves, along the ray, matter of velocity v = dx/dt there (c = 1, x as rays tell it):

@@ -18,6 +18,11 @@ vec2 rotate(vec2 v, vec2 turn) {
     return vec2(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x);
 }
 
+// `v` in axes that the unit quaternion (x, y, z, w) turns to the world's.
+vec3 unturned(vec4 attitude, vec3 v) {
+    return v + 2.0 * cross(attitude.xyz, cross(attitude.xyz, v) - attitude.w * v);
+}
+
 // The angle of (x, y) in turns, −½…½, to 2e-6, for half of what the driver's atan takes.
 float turns(float x, float y) {
     vec2 size = abs(vec2(x, y));

@@ -6,6 +6,7 @@ slot = "thing"
 rank = 1
 moves = true
 round = true
+surface = true
 reach = ["radius"]
 
 [parameters.radius]
@@ -14,23 +15,32 @@ range = [0.001, 100.0]
 unit = "r_s"
 help = "Its radius."
 
-[parameters.colour]
-default = [0.85, 0.8, 0.7]
-length = [3, 3]
-element = { default = 1.0, range = [0.0, 1.0] }
-help = "Red, green and blue of its surface, of the light that falls on it."
 ---*/
+#include "common/rotation.glsl"
+#include "common/colour.glsl"
+#include "common/surface.glsl"
 
 float thing_sphere_distance(int i, vec3 x) {
     vec4 bound = thing_sphere_bound(i);
     return distance(x, bound.xyz) - bound.w;
 }
 
+// Longitude and latitude at `arm` from the centre, in its own axes, and their changes: no angle is taken of a difference, so that there is no seam.
+Painted globe_place(vec3 arm, vec3 right, vec3 up) {
+    const float ROUND = 6.28318531;
+    float beside2 = max(dot(arm.xy, arm.xy), 1e-12 * dot(arm, arm)), beside = sqrt(beside2), whole2 = beside2 + arm.z * arm.z;
+    vec2 at = vec2(turns(arm.x, arm.y), 0.5 + 2.0 * turns(beside, arm.z));
+    vec2 change = vec2(arm.x * right.y - arm.y * right.x, 0.0) / (ROUND * beside2);
+    change.y = 2.0 * (beside * right.z - arm.z * dot(arm.xy, right.xy) / beside) / (ROUND * whole2);
+    vec2 other = vec2(arm.x * up.y - arm.y * up.x, 0.0) / (ROUND * beside2);
+    other.y = 2.0 * (beside * up.z - arm.z * dot(arm.xy, up.xy) / beside) / (ROUND * whole2);
+    return Painted(at, change, other);
+}
+
 Light thing_sphere_light(int i, Sight sight) {
-    vec4 bound = thing_sphere_bound(i);
+    vec4 bound = thing_sphere_bound(i), attitude = thing_sphere_attitude(i);
     vec3 arm = sight.place - bound.xyz;
-    float lit = 0.2 + 0.8 * max(dot(arm / bound.w, sight.towards), 0.0);
-    float shift = emitted_shift(sight, thing_sphere_velocity(i).xyz + cross(thing_sphere_spin(i).xyz, arm)) * sight.energy;
-    shift *= shift;
-    return Light(thing_sphere_colour(i) * (lit * shift * shift), vec3(0.0));
+    Painted spot = globe_place(unturned(attitude, arm), unturned(attitude, sight.right), unturned(attitude, sight.up));
+    vec3 velocity = thing_sphere_velocity(i).xyz + cross(thing_sphere_spin(i).xyz, arm);
+    return Light(surface_radiance(thing_sphere_finish(i), spot, sight, arm / bound.w, velocity), vec3(0.0));
 }

@@ -47,7 +47,7 @@ void main() {
     float error = compared ? distance(hits.direction, exact.direction) / pixel_angle : 0.0;
 #if ORDERS > 0
     for (int n = 0; n < ORDERS; ++n) {
-        Crossing crossing = crossing_of(exact.crossing[n]);
+        Crossing crossing = crossing_of(exact.crossing[n], exact.fate);
         bool shown = on_disk(hits.crossing[n]) || on_disk(exact.crossing[n]);
         bool both = hits.crossing[n] != vec2(0.0) && exact.crossing[n] != vec2(0.0);
         float slip = slip_in_pixels(hits.crossing[n] - exact.crossing[n], crossing);

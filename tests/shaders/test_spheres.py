@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from blackhole_gl.glsl.declared import Fate
+from blackhole_gl.physics import motion, moving_matter
+from blackhole_gl.physics.observer import observe
+from blackhole_gl.plan import plan
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
@@ -38,3 +41,117 @@ def test_an_orbiting_sphere_is_met_where_it_is_at_the_time(renderer: Renderer) -
         centre = 9.0 * np.array([np.cos(0.1 * time), np.sin(0.1 * time), 0.0])
         apart = np.linalg.norm(hits.met_place[met, 0] - centre, axis=-1)
         assert met.sum() > 50 and np.max(np.abs(apart - 2.0)) < 1e-4, "single precision at 9 r_s, and the root's own error"
+
+
+def test_where_a_ray_ends_on_a_sphere_before_it_crosses_no_seam_is_seen(renderer: Renderer) -> None:
+    """A ball that the disk's plane cuts, beyond the disk's edge: its upper half ends rays before they cross, its lower half after. All of it is alike."""
+    flat = {"lighting": "glowing", "frequency_shift": False, "path": "circle", "orbit_rate": 0.0, "orbit_radius": 13.0, "orbit_phase_deg": 20.0}
+    scene = _scene(**flat).with_values({"rays.edges": 1, "camera.distance": 22.0})
+    renderer.render(scene, 0.0, (320, 180))
+    hits = renderer.hits()
+    met = hits.fate == Fate.MET
+    before = hits.met[..., 0, 2]
+    assert np.sum(met & (before == 0)) > 300 and np.sum(met & (before == 1)) > 300
+    np.testing.assert_allclose(renderer.radiance()[::-1][met] / (0.85, 0.8, 0.7), 1.0, atol=1e-3)
+
+
+QUIET = {"rays.lensing": False, "hole.spin": 0.0, "disk.enabled": False, "sky.enabled": False, "post.bloom": False, "rays.edges": 1, "camera.azimuth_deg": 0.0}
+
+
+def _lit(place: np.ndarray, centre: np.ndarray, towards: np.ndarray, lamps: list[tuple[np.ndarray, np.ndarray, float]], **finish: float) -> np.ndarray:
+    """Blinn and Phong's light of a ball about `centre` at its surface points `place` (N, 3), seen along the unit vectors `towards`, in float64."""
+    normal = (place - centre) / np.linalg.norm(place - centre, axis=-1)[:, None]
+    colour = np.array([0.85, 0.8, 0.7])
+    light = np.repeat(finish["ambient"] * colour[None], len(place), axis=0)
+    for where, glow, unit in lamps:
+        way = where - place
+        far = np.linalg.norm(way, axis=-1)
+        to_lamp = way / far[:, None]
+        facing = np.maximum(np.sum(normal * to_lamp, axis=-1), 0.0)
+        half = to_lamp + towards
+        half /= np.linalg.norm(half, axis=-1)[:, None]
+        highlight = np.where(facing > 0.0, finish["specular"] * np.maximum(np.sum(normal * half, axis=-1), 0.0) ** finish["shininess"], 0.0)
+        thinned = (unit / far) ** 2 if unit else np.ones_like(far)
+        light += ((1.0 - finish["ambient"]) * facing[:, None] * colour + highlight[:, None]) * thinned[:, None] * glow
+    return light
+
+
+def test_lamps_light_a_ball_as_blinn_and_phong_say(renderer: Renderer) -> None:
+    """Two lamps, one of which thins out, in flat space without a shift; radiance is kept in half floats, good to 1e-3 of it."""
+    finish = {"ambient": 0.1, "specular": 0.4, "shininess": 25.0}
+    scene = _scene("kerr", x=3.0, y=1.0, z=4.0, radius=2.0, frequency_shift=False, **finish).with_values({**QUIET, "camera.inclination_deg": 60.0})
+    sun, moon = np.array([9.0, -6.0, 8.0]), np.array([8.0, 9.0, 2.0])
+    for name, place, more in (("sun", sun, {"brightness": 1.5}), ("other", moon, {"brightness": 0.5, "thins_out": False, "colour": (0.2, 1.0, 0.4)})):
+        given = {"kind": "lamp", "radius": 0.0, **dict(zip("xyz", place)), **more}
+        scene = scene.with_values({f"things.{name}.{key}": value for key, value in given.items()})
+    renderer.render(scene, 0.0, (240, 160))
+    hits = renderer.hits()
+    met = hits.met[..., 0, 0] >= 0
+    place = hits.met_place[met, 0].astype(float)
+    assert len(place) > 1000
+    camera = 20.0 * np.array([np.sin(np.radians(60.0)), 0.0, np.cos(np.radians(60.0))])
+    towards = camera - place
+    towards /= np.linalg.norm(towards, axis=-1)[:, None]
+    lamps = [(sun, 1.5 * np.array([1.0, 0.95, 0.9]), 10.0), (moon, 0.5 * np.array([0.2, 1.0, 0.4]), 0.0)]
+    expected = _lit(place, np.array([3.0, 1.0, 4.0]), towards, lamps, **finish)
+    assert expected.max() > 1.0, "there is a highlight"
+    np.testing.assert_allclose(renderer.radiance()[::-1][met], expected, rtol=3e-3, atol=1e-3)
+
+
+def test_squares_too_small_for_a_pixel_are_their_mean(renderer: Renderer) -> None:
+    """What cannot be shown neither blinks nor makes patterns: all pixels but those at the rim have the mean of the two colours."""
+    looks = {"surface": "checker", "colour": (1.0, 1.0, 1.0), "other_colour": (0.0, 0.0, 0.0), "lighting": "glowing", "frequency_shift": False}
+    scene = _scene("kerr", x=0.0, z=6.0, radius=3.0, squares_around=720, squares_along=360, **looks).with_values(QUIET)
+    renderer.render(scene, 0.0, (96, 64))
+    met = renderer.hits().met[..., 0, 0] >= 0
+    inner = met & np.roll(met, 1, 0) & np.roll(met, -1, 0) & np.roll(met, 1, 1) & np.roll(met, -1, 1)
+    assert inner.sum() > 200
+    np.testing.assert_allclose(renderer.radiance()[::-1][inner], 0.5, atol=0.08)
+
+
+def test_squares_lie_where_longitude_and_latitude_say_without_a_seam(renderer: Renderer) -> None:
+    """By the place of each meeting, in axes turned with the ball; pixels on the squares' edges are left out."""
+    looks = {"surface": "checker", "colour": (1.0, 1.0, 1.0), "other_colour": (0.0, 0.0, 0.0), "lighting": "glowing", "frequency_shift": False}
+    scene = _scene("kerr", x=0.0, z=6.0, radius=3.0, turn_deg=180.0, **looks).with_values(QUIET)
+    renderer.render(scene, 0.0, (240, 160))
+    hits = renderer.hits()
+    met = hits.met[..., 0, 0] >= 0
+    arm = hits.met_place[met, 0].astype(float) - (0.0, 0.0, 6.0)
+    around = np.arctan2(-arm[:, 1], -arm[:, 0]) / (2.0 * np.pi) * 16
+    along = (0.5 + np.arcsin(arm[:, 2] / 3.0) / np.pi) * 8
+    clear = (np.abs(around - np.rint(around)) > 0.15) & (np.abs(along - np.rint(along)) > 0.15) & (np.hypot(arm[:, 0], arm[:, 1]) > 1.5) & (arm[:, 0] > 1.5)
+    assert clear.sum() > 800 and np.any(np.abs(around[clear]) > 7.5), "the seam is in view"
+    expected = ((np.floor(around) + np.floor(along)) % 2 == 0)[clear]
+    np.testing.assert_allclose(renderer.radiance()[::-1][met][clear, 0], expected, atol=0.02)
+
+
+def test_a_black_body_on_an_orbit_has_the_shifted_colour(renderer: Renderer) -> None:
+    """Brightness by g⁴, the luminance of its colour being 1; g by the float64 form from each ray's own momentum."""
+    scene = _scene("kerr", surface="black_body", path="geodesic", orbit_radius=6.0, orbit_phase_deg=270.0, radius=0.8, temperature_k=6000.0)
+    scene = scene.with_values({"disk.enabled": False, "sky.enabled": False, "post.bloom": False, "rays.edges": 1, "camera.azimuth_deg": 0.0})
+    renderer.render(scene, 0.0, (240, 160))
+    hits, made = renderer.hits(), plan(scene)
+    met = hits.met[..., 0, 0] >= 0
+    place, rates = hits.met_place[met, 0].astype(float), hits.met_rates[met, 0].astype(float)
+    ((_, here),) = motion.motions(scene, "thing", made.space_time, 0.0)
+    r, spin = 2.0 * np.linalg.norm(place, axis=-1), made.space_time.spin
+    n = 2.0 * place / r[:, None]
+    sine = np.hypot(n[:, 0], n[:, 1])
+    e_phi = np.stack([-n[:, 1], n[:, 0], 0.0 * r], axis=-1) / sine[:, None]
+    k_theta, k_phi = (-np.sum(rates[:, :3] * axis, axis=-1) for axis in (np.cross(e_phi, n), e_phi))
+    k = np.stack([rates[:, 3] / (1.0 - 2.0 / r + (spin / r) ** 2), k_theta, sine * k_phi], axis=-1)
+    g = moving_matter.emitted_shift(place, np.broadcast_to(here.velocity, place.shape), k, spin) / observe(scene).tetrad[0, 0]
+    luminance = renderer.radiance()[::-1][met].astype(float) @ (0.2126, 0.7152, 0.0722)
+    assert len(place) > 200 and g.max() > 1.1, "it comes towards the camera"
+    assert np.quantile(np.abs(luminance**0.25 / g - 1.0), 0.99) < 1e-3, "half floats; the colours' luminance is 1 to 1e-3"
+
+
+def test_what_a_surface_looks_like_traces_nothing_anew(renderer: Renderer) -> None:
+    scene = _scene("kerr", surface="checker")
+    renderer.render(scene, 0.0, (32, 18))
+    compiled = renderer.programs.compiled
+    for name, value in (("colour", (0.1, 0.2, 0.3)), ("surface", "black_body"), ("lighting", "glowing"), ("squares_around", 40), ("ambient", 0.5)):
+        scene = scene.with_values({f"things.moon.{name}": value})
+        assert not renderer.render(scene, 0.0, (32, 18)).traced, name
+    assert renderer.render(scene.with_values({"things.moon.radius": 2.0}), 0.0, (32, 18)).traced
+    assert renderer.programs.compiled == compiled
