@@ -4,16 +4,23 @@
 //
 // PIXEL_MATTER, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
 // than another, one draw each. The few that cross the disk and are not of the sky are black in it.
+//
+// And marks by which edges are found, as that takes the same texels.
 #defines
 #blocks
 #include "common/constants.glsl"
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/disk_edge.glsl"
+#include "common/edge_marks.glsl"
 #include "common/orders_shown.glsl"
 
+out vec2 mark;
+
 void main() {
-    Hits hits = shown_orders(stored_hits(ivec2(gl_FragCoord.xy)));
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Hits stored = stored_hits(pixel), hits = shown_orders(stored);
+    mark = edge_mark(stored, pixel);
     bool disk = false;
 #if ORDERS > 0
     for (int n = 0; n < ORDERS; ++n)

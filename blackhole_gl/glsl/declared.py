@@ -39,6 +39,23 @@ class PixelClass(IntEnum):
         return 0.1 * (self + 1)
 
 
+class EdgeMark(IntEnum):
+    """What shaders/common/edge_marks.glsl tells of a pixel's ray, in eight bits of which the first two hold its fate."""
+
+    RING_1 = 4
+    """Two bits: where the crossing that makes the first ring lies."""
+    RING_2 = 16
+    """The same of the second ring."""
+    VEILED = 64
+    """The direct picture hides the first ring's edges."""
+    NO_RAY = 255
+    """The pixel has no ray of its own."""
+
+
 def defines() -> dict[str, int]:
     """Name → number of every shared word."""
-    return {**{fate.name: int(fate) for fate in Fate}, **{f"PIXEL_{kind.name}": int(kind) for kind in PixelClass}}
+    return {
+        **{fate.name: int(fate) for fate in Fate},
+        **{f"PIXEL_{kind.name}": int(kind) for kind in PixelClass},
+        **{f"EDGE_{mark.name}": int(mark) for mark in EdgeMark},
+    }

@@ -4,107 +4,111 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 
-from ..glsl.declared import PixelClass
-from ..scene import Scene
+from ..glsl.declared import EdgeMark, PixelClass
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Draw, Programs
+from .sorting import PixelSorting, marks_target, set_hiding
 from .target import Target
-
-_VEIL = 0.5
 
 _OWN_RAYS = PixelClass.OWN_RAY.depth_beyond
 
-
-@dataclass(frozen=True, eq=False)
-class _Made:
-    """Of a picture's size. With the classes of a map that is not sharp, whose pixels without a ray of their own lie nowhere near an edge.
-
-    Attributes:
-        marks: RG8, shaders/common/edge_marks.glsl.
-        edges: R8, 1 at edges.
-    """
-
-    marks: Target
-    edges: Target
-    classes: moderngl.Texture | None
-
-    @classmethod
-    def of(cls, ctx: moderngl.Context, size: tuple[int, int], classes: moderngl.Texture | None) -> _Made:
-        def target(components: int) -> Target:
-            texture = ctx.texture(size, components, dtype="f1", alignment=1)
-            texture.filter = moderngl.NEAREST, moderngl.NEAREST
-            texture.repeat_x = texture.repeat_y = False
-            return Target.of(ctx, [texture], classes)
-
-        return cls(target(2), target(1), classes)
-
-    def fits(self, size: tuple[int, int], classes: moderngl.Texture | None) -> bool:
-        return self.marks.size == size and self.classes is classes
-
-    def release(self) -> None:
-        self.marks.release()
-        self.edges.release()
-
-
-def hides(scene: Scene) -> bool:
-    """Whether the direct picture of the disk hides what is behind it well enough for the first ring's edges not to be seen."""
-    return scene.disk.opacity > _VEIL
+_SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
+_SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
 
 
 class EdgePixels:
-    """Finds them."""
+    """Finds them.
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs):
-        self._ctx, self._programs = ctx, programs
-        self._made: dict[bool, _Made] = {}  # of maps that are sharp, and that are not
+    Args:
+        sorting: of the maps that are sharp; it stays its owner's.
+    """
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs, sorting: PixelSorting):
+        self._ctx, self._programs, self._sorting = ctx, programs, sorting
+        self._own: Target | None = None
+        self._classes: moderngl.Texture | None = None  # that it draws by
 
     def find(self, inputs: FrameInputs, hit_map: HitMap) -> np.ndarray:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2). Waits for the GPU."""
-        made = self._targets(inputs.size, hit_map)
-        marks = self._programs.get("edge_marks.frag", inputs)
-        marks.sample(hit_map.samplers())
-        if "disk_hides" in marks.program:
-            marks.set(disk_hides=hides(inputs.plan.scene))
-        self._draw(marks, made.marks, made.classes, 1.0)
-        edges = self._programs.get("edge_pixels.frag", inputs)
-        edges.sample({"marks": made.marks.texture})
-        self._draw(edges, made.edges, made.classes, 0.0)
-        width, height = inputs.size
-        found = np.frombuffer(made.edges.texture.read(alignment=1), np.uint8)
-        rows, columns = np.divmod(np.flatnonzero(found), width)
-        return np.stack([columns, rows], axis=-1)
+        classes = hit_map.classes
+        marks = self._sorting.of(inputs, hit_map).marks if classes is None else self._marks_of_own_rays(inputs, hit_map, classes)
+        return at_edges(np.frombuffer(marks.read(alignment=1), "<u2").reshape(marks.height, marks.width))
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for made in self._made.values():
-            made.release()
-        self._made = {}
+        if self._own is not None:
+            self._own.release()
+        self._own = self._classes = None
 
-    def _targets(self, size: tuple[int, int], hit_map: HitMap) -> _Made:
-        made = self._made.get(hit_map.is_sharp)
-        if made is None or not made.fits(size, hit_map.classes):
-            if made is not None:
-                made.release()
-            made = self._made[hit_map.is_sharp] = _Made.of(self._ctx, size, hit_map.classes)
-        return made
+    def _marks_of_own_rays(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> moderngl.Texture:
+        """Of a map that is not sharp, whose pixels without a ray of their own lie nowhere near an edge."""
+        if self._own is None or self._classes is not classes:
+            self.release()
+            self._own, self._classes = marks_target(self._ctx, classes.size, classes), classes
+        marks = self._programs.get("edge_marks.frag", inputs)
+        marks.sample(hit_map.samplers())
+        set_hiding(marks)
+        frame = self._own.frame
+        frame.use()
+        frame.depth_mask = False
+        frame.clear(1.0, 1.0)  # no ray
+        with drawn_nearer(self._ctx, marks, _OWN_RAYS):
+            marks.draw()
+        return self._own.texture
 
-    def _draw(self, draw: Draw, target: Target, classes: moderngl.Texture | None, elsewhere: float) -> None:
-        """Draws every pixel, or where there are `classes` those with rays of their own, all others `elsewhere`."""
-        target.frame.use()
-        if classes is None:
-            draw.set(triangle_depth=0.0)
-            draw.draw()
-            return
-        target.frame.depth_mask = False
-        target.frame.clear(elsewhere, elsewhere)
-        with drawn_nearer(self._ctx, draw, _OWN_RAYS):
-            draw.draw()
+
+def at_edges(marks: np.ndarray) -> np.ndarray:
+    """Column and row, int (N, 2), of the pixels of `marks` (height, width) that differ from one of the eight beside them; in order of rows.
+
+    Left out are the direct picture's own edges, as its cover is smooth, and what it hides.
+
+    Args:
+        marks: shaders/common/edge_marks.glsl, its first number in the low byte.
+    """
+    rows, columns = _part_with_changes(marks)
+    framed = np.pad(marks[rows, columns], 1, mode="edge")
+    width, flat = framed.shape[1], framed.ravel()
+    places = _beside_changes(flat, width)
+    y, x = np.divmod(places, width)
+    inside = (x > 0) & (x < width - 1) & (y > 0) & (y < len(framed) - 1)
+    places, x, y = places[inside], x[inside], y[inside]
+    here = flat[places]
+    counts = np.where(here & EdgeMark.VEILED, _SEEN_THROUGH_VEIL, _SEEN)
+    differs = np.zeros(places.shape, bool)
+    for step in (-width - 1, -width, -width + 1, -1, 1, width - 1, width, width + 1):
+        beside = flat[places + step]
+        differs |= _has_ray(beside) & ((beside ^ here) & counts != 0)
+    found = differs & _has_ray(here)
+    return np.stack([x[found] + (columns.start - 1), y[found] + (rows.start - 1)], axis=-1)
+
+
+def _part_with_changes(marks: np.ndarray) -> tuple[slice, slice]:
+    """Rows and columns that hold all edges of `marks`: much of most pictures is sky and nothing else."""
+    busy = marks != marks[0, 0]
+    rows, columns = (np.flatnonzero(busy.any(axis=axis)) for axis in (1, 0))
+    if not rows.size:
+        return slice(0, 1), slice(0, 1)
+    return slice(max(rows[0] - 1, 0), rows[-1] + 2), slice(max(columns[0] - 1, 0), columns[-1] + 2)
+
+
+def _beside_changes(flat: np.ndarray, width: int) -> np.ndarray:
+    """Places in the picture `flat`, of rows of `width`, of all that differ from one of the eight beside them, and a few more."""
+    near = np.zeros(flat.size, bool)
+    for apart, across in ((1, width), (width, 1)):
+        changes = np.flatnonzero(flat[apart:] != flat[:-apart])
+        for step in (-across, 0, across, apart - across, apart, apart + across):
+            near[np.clip(changes + step, 0, flat.size - 1)] = True
+    return np.flatnonzero(near)
+
+
+def _has_ray(marks: np.ndarray) -> np.ndarray:
+    """Which pixels have rays of their own."""
+    return (marks & 255) != EdgeMark.NO_RAY
 
 
 @contextmanager

@@ -8,11 +8,12 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .edge_pixels import EdgePixels, drawn_nearer, hides
+from .edge_pixels import EdgePixels, drawn_nearer
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
 from .programs import Programs
 from .shading import Box, ShadePass
+from .sorting import PixelSorting, hides
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
@@ -32,14 +33,15 @@ class EdgeRays:
 
     Args:
         tables, temperatures: what rays are traced and shaded with; they stay their owner's.
+        sorting: of the pixels of sharp maps; so does this.
 
     Attributes:
         pixels: column and row of each pixel with several rays, from the bottom left, int (N, 2).
     """
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
+    def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile, sorting: PixelSorting):
         self._ctx, self._programs = ctx, programs
-        self._find = EdgePixels(ctx, programs)
+        self._find = EdgePixels(ctx, programs, sorting)
         self._map = HitMap(ctx, programs, tables)
         self._shade = ShadePass(ctx, programs, tables, temperatures)
         self._places: _Places | None = None

@@ -84,7 +84,7 @@ class Renderer:
         self._sample_map = HitMap(ctx, self.programs, self._tables)
         self._mean = supersampling.Mean(ctx)
         self._shade = ShadePass(ctx, self.programs, self._tables, self._temperatures)
-        self.edges = EdgeRays(ctx, self.programs, self._tables, self._temperatures)
+        self.edges = EdgeRays(ctx, self.programs, self._tables, self._temperatures, self._shade.sorting)
         self._views = diagnostics.ViewPass(ctx, self.programs, self._temperatures)
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
         self._post = PostPass(ctx, self.programs)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import moderngl
 import numpy as np
 
@@ -12,6 +10,7 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
 from .programs import SHADE_SLOTS, Draw, Programs, chosen
+from .sorting import PixelSorting, Sorted
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
@@ -25,18 +24,6 @@ Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Classes:
-    """The pixels of a sharp map by what they need, as a depth, and what draws into it."""
-
-    depth: moderngl.Texture
-    frame: moderngl.Framebuffer
-
-    def release(self) -> None:
-        self.frame.release()
-        self.depth.release()
-
-
 class ShadePass:
     """Draws shaders/shade_*.frag.
 
@@ -46,14 +33,17 @@ class ShadePass:
 
     Args:
         tables, temperatures: what those shaders read; they stay their owner's.
+
+    Attributes:
+        sorting: of the pixels of sharp maps.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self._ctx, self._programs = ctx, programs
         self._tables, self._temperatures = tables, temperatures
-        self._classes: _Classes | None = None
-        self._classes_key: tuple | None = None
-        self._disk_box: Box | None = None  # not known before the second frame of the same classes
+        self.sorting = PixelSorting(ctx, programs)
+        self._sorted: Sorted | None = None  # the pixels of the last sharp map
+        self._disk_box: Box | None = None  # not known before the second frame of the same pixels
         self._frame: moderngl.Framebuffer | None = None
         self._sky: Target | None = None
         self._sky_key: tuple | None = None
@@ -93,7 +83,7 @@ class ShadePass:
             return
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        key = (sky.serial, self._classes_key, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters)
+        key = (sky.serial, self._sorted and self._sorted.key, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(frame, inputs, hit_map)
@@ -120,7 +110,9 @@ class ShadePass:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        self._release_classes()
+        self._release_targets()
+        self.sorting.release()
+        self._sorted = None
 
     def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._prepared("shade_sky.frag", inputs, hit_map, switches)
@@ -153,24 +145,14 @@ class ShadePass:
         self._ctx.scissor = None
 
     def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
-        size, plan = hit_map.textures[0].size, inputs.plan
-        key = (hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.orders_shown)
-        made = self._classes
-        if made is not None and key == self._classes_key:
-            self._disk_box = self._disk_box or _disk_box(made.depth)
-            return made.depth
-        if made is None or made.depth.size != size:
-            self._release_classes()
-            depth = self._ctx.depth_texture(size)
-            made = self._classes = _Classes(depth, self._ctx.framebuffer([], depth))
-        classes = self._prepared("shade_classes.frag", inputs, hit_map, hit_map.switches())
-        made.frame.use()
-        self._ctx.enable(moderngl.DEPTH_TEST)
-        self._ctx.depth_func = "1"  # always
-        classes.draw()
-        self._ctx.disable(moderngl.DEPTH_TEST)
-        self._classes_key, self._disk_box = key, None
-        return made.depth
+        found, last = self.sorting.of(inputs, hit_map), self._sorted
+        if found is last:
+            self._disk_box = self._disk_box or _disk_box(found.depth)
+            return found.depth
+        if last is not None and last.depth is not found.depth:
+            self._release_targets()
+        self._sorted, self._disk_box = found, None
+        return found.depth
 
     def _attached(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> moderngl.Framebuffer:
         """The framebuffer of the target's picture and the pixels' classes, made unless it is there."""
@@ -181,13 +163,11 @@ class ShadePass:
             self._frame = self._ctx.framebuffer([picture], classes)
         return self._frame
 
-    def _release_classes(self) -> None:
-        for item in (self._sky, self._frame, self._classes):
+    def _release_targets(self) -> None:
+        for item in (self._sky, self._frame):
             if item is not None:
                 item.release()
-        self._sky, self._frame, self._classes = None, None, None
-        self._classes_key, self._sky_key, self._sky_kept = None, None, False
-        self._disk_box = None
+        self._sky, self._frame, self._sky_key, self._sky_kept = None, None, None, False
 
 
 def _disk_box(classes: moderngl.Texture) -> Box:

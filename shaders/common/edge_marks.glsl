@@ -1,6 +1,28 @@
-// What edge_marks.frag leaves for edge_pixels.frag, two numbers of eight bits: the fate with the zones of the rings, and what is met. 255 is no ray.
+// What of a pixel's ray is alike on all sides where nothing ends, in two numbers of eight bits: EDGE_… (glsl/declared.py), and what is met. The host looks for
+// where they change (blackhole_gl/render/edge_pixels.py). A ring may be thinner than a pixel and met by no pixel's middle; but it lies beside the line across which
+// the fate changes, or the order. The second ring is thin everywhere: there every pixel differs from the next.
 
-const int RING_1 = 4;     // two bits
-const int RING_2 = 16;    // two bits, of which the first is the disk's
-const int VEILED = 64;
-const int NO_RAY = 255;
+uniform bool disk_hides; // whether the direct picture hides the first ring's edges well enough
+
+// Where a crossing lies: 0 outside the disk's outer edge, or nowhere, 1 on the disk, 2 inside its inner edge. Between 0 and 2 lies a disk too thin to be met.
+int edge_zone(vec2 point) {
+    return on_disk(point) ? 1 : point != vec2(0.0) && dot(point, point) < disk_r_in * disk_r_in ? 2 : 0;
+}
+
+vec2 edge_mark(Hits hits, ivec2 pixel) {
+    int seen = hits.fate, met = 0;
+#if ORDERS > 1
+    seen |= edge_zone(hits.crossing[1]) * EDGE_RING_1 | edge_zone(hits.crossing[2]) * EDGE_RING_2;
+#endif
+#if ORDERS > 0 && DISK_COMPOSITING_OPACITY
+    seen |= disk_hides && on_disk(hits.crossing[0]) ? EDGE_VEILED : 0;
+#endif
+#if MEETINGS
+    for (int k = 0; k < MEETINGS; ++k)
+        met = (met * 31 + hits.meeting[k].kind + 1) & 127;
+#endif
+#if ORDERS > 1
+    met |= on_disk(hits.crossing[2]) ? ((pixel.x + pixel.y) & 1) << 7 : 0;
+#endif
+    return vec2(seen, met) / 255.0;
+}

@@ -21,7 +21,7 @@ SHIPPED = [info for info in presets.available() if info.path.is_relative_to(pres
 
 # What draws a picture, in the order of shaders/README.md.
 TRACED = ("trace.frag", "refine_nodes.frag", "refine_cells.frag", "refine_classes.frag", "probe.frag")
-EDGES = ("edge_marks.frag", "edge_pixels.frag", "edge_resolve.frag")
+EDGES = ("edge_marks.frag", "edge_resolve.frag")
 POST = ("post/bloom_down.frag", "post/bloom_up.frag", "post/tone_table.frag", "post/tone_map.frag")
 
 

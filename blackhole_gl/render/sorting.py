@@ -1,0 +1,90 @@
+"""Pixels of a sharp hit map sorted by what they need, with the marks by which edges are found: one pass over its hits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+
+from ..scene import Scene
+from .hit_map import HitMap
+from .inputs import FrameInputs
+from .programs import Draw, Programs
+from .target import Target
+
+_VEIL = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """The pixels of a picture.
+
+    Attributes:
+        key: of what they depend on.
+        depth: by what each needs, as shaders/shade_classes.frag writes it.
+        marks: RG8, shaders/common/edge_marks.glsl.
+    """
+
+    key: tuple
+    depth: moderngl.Texture
+    marks: moderngl.Texture
+
+
+class PixelSorting:
+    """Draws shaders/shade_classes.frag; what it made is kept as long as the hit map and the disk's edges are."""
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self._target: Target | None = None
+        self._depth: moderngl.Texture | None = None
+        self._kept: Sorted | None = None
+
+    def of(self, inputs: FrameInputs, hit_map: HitMap) -> Sorted:
+        """The pixels of `hit_map`, which is sharp."""
+        plan, scene = inputs.plan, inputs.plan.scene
+        size = hit_map.textures[0].size
+        key = hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer, scene.disk.orders_shown, scene.disk.compositing, hides(scene)
+        if self._kept is None or self._kept.key != key:
+            self._kept = self._sort(inputs, hit_map, size, key)
+        return self._kept
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for item in (self._target, self._depth):
+            if item is not None:
+                item.release()
+        self._target, self._depth, self._kept = None, None, None
+
+    def _sort(self, inputs: FrameInputs, hit_map: HitMap, size: tuple[int, int], key: tuple) -> Sorted:
+        if self._target is None or self._depth is None or self._target.size != size:
+            self.release()
+            self._depth = self._ctx.depth_texture(size)
+            self._target = marks_target(self._ctx, size, self._depth)
+        classes = self._programs.get("shade_classes.frag", inputs, hit_map.switches())
+        classes.sample(hit_map.samplers())
+        set_hiding(classes)
+        self._target.frame.use()
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"  # always
+        classes.draw()
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+        return Sorted(key, self._depth, self._target.texture)
+
+
+def hides(scene: Scene) -> bool:
+    """Whether the direct picture of the disk hides what is behind it well enough for the first ring's edges not to be seen."""
+    return scene.disk.opacity > _VEIL
+
+
+def marks_target(ctx: moderngl.Context, size: tuple[int, int], depth: moderngl.Texture) -> Target:
+    """For the marks of a picture of `size`, with the pixels' `depth`."""
+    texture = ctx.texture(size, 2, dtype="f1", alignment=1)
+    texture.filter = moderngl.NEAREST, moderngl.NEAREST
+    return Target.of(ctx, [texture], depth)
+
+
+def set_hiding(marks: Draw) -> None:
+    """Tells a program that makes marks what the disk hides, if it asks."""
+    if "disk_hides" in marks.program:
+        marks.set(disk_hides=hides(marks.inputs.plan.scene))
