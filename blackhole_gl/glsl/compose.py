@@ -168,12 +168,16 @@ class _Reader:
                 yield from self._slot(match[1], match[2], place)
 
     def refuse_missing(self, lines: Sequence[Line], switches: Mapping[str, int]) -> None:
-        """Refuses the composed `lines` where a plug-in lacks functions that others call in it."""
+        """Refuses the composed `lines` where a plug-in of the user's lacks functions that others call in it."""
+        chosen = {plug_in for plug_ins in self._chosen.values() for plug_in in plug_ins}
+        users = {plug_in for plug_in in chosen if self._found(plug_in)[0] != self._roots[0]}  # ours are tested, and looking takes milliseconds
+        if not users:
+            return
         compiled = [(text, lines[number][1][0]) for number, text in numbered_live_lines((text for text, _ in lines), switches)]
         given = set(_GIVEN.findall("\n".join(text for text, _ in compiled)))
-        asked = dict(self._called)
+        asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users}
         for slot, names in _OF_SLOT.items():
-            for plug_in in self._chosen.get(slot, ()):
+            for plug_in in users.intersection(self._chosen.get(slot, ())):
                 own = self._found(plug_in)[1]
                 asked |= {name: plug_in for text, file in compiled if file != own for name in names.findall(text)}
         for plug_in in dict.fromkeys(asked.values()):
