@@ -49,8 +49,12 @@ class Hand:
     held: Collection[str] = ()
 
 
-def advance(state: WindowState, hand: Hand, dt: float) -> None:
-    """Lets `dt` seconds pass: the camera follows the hand, scene time runs unless paused, notices leave."""
+def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> None:
+    """Lets `dt` seconds pass: the camera follows the hand, scene time runs unless paused, notices leave.
+
+    Args:
+        slept: seconds before these in which the window slept: for notices alone, which a user reads meanwhile.
+    """
     right, down = hand.drag
     # The near side of what is looked at follows the hand, so the camera goes the other way.
     azimuth, inclination, reach = -DRAG_DEG * right, -DRAG_DEG * down, DRAG_REACH * hand.pull[1] - WHEEL_REACH * hand.wheel
@@ -68,7 +72,7 @@ def advance(state: WindowState, hand: Hand, dt: float) -> None:
         look(state, *hand.look)
     if state.is_playing:
         state.time += dt * state.scene.playback.rate
-    state.clock += dt
+    state.clock += slept + dt
     if state.notice and state.notice.until is not None and state.clock > state.notice.until:
         state.notice = None
 

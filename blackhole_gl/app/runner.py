@@ -7,6 +7,7 @@ from typing import Protocol
 from imgui_bundle import hello_imgui, imgui, immapp
 
 from . import fonts, theme
+from .failure import Failure
 from .opening import WindowError, open_platform
 
 TITLE = "Blackhole GL"
@@ -17,7 +18,9 @@ _PANEL_SHARE = 0.30  # of the window's width, before `PanelWidth` knows better
 
 
 class Callbacks(Protocol):
-    """What the library calls, in the order of a frame."""
+    """What the library calls, in the order of a frame; `failure` keeps from it what they raise."""
+
+    failure: Failure
 
     def start(self) -> None: ...
     def before_frame(self) -> None: ...
@@ -54,7 +57,7 @@ def parameters(window: Callbacks, size: tuple[int, int]) -> hello_imgui.RunnerPa
     params.fps_idling.enable_idling = False  # until the first picture is there
     params.docking_params.main_dock_space_node_flags = (imgui.DockNodeFlags_.passthru_central_node | imgui.DockNodeFlags_.auto_hide_tab_bar).value
     params.docking_params.docking_splits = [hello_imgui.DockingSplit(DOCK_SPACE, "Right", imgui.Dir.right, _PANEL_SHARE)]
-    panel = hello_imgui.DockableWindow(PANEL, "Right", window.draw_panel)
+    panel = hello_imgui.DockableWindow(PANEL, "Right", window.failure.kept_from(window.draw_panel))
     panel.imgui_window_flags = imgui.WindowFlags_.no_nav_inputs.value  # TAB belongs to the key table
     panel.can_be_closed = False  # TAB hides it, and is the way to get it back
     params.docking_params.dockable_windows = [panel]
@@ -63,9 +66,9 @@ def parameters(window: Callbacks, size: tuple[int, int]) -> hello_imgui.RunnerPa
     callbacks.load_additional_fonts = fonts.load
     callbacks.setup_imgui_style = theme.apply
     callbacks.post_init = window.start
-    callbacks.pre_new_frame = window.before_frame
-    callbacks.show_gui = window.frame
-    callbacks.custom_background = window.draw_picture
+    callbacks.pre_new_frame = window.failure.kept_from(window.before_frame)
+    callbacks.show_gui = window.failure.kept_from(window.frame)
+    callbacks.custom_background = window.failure.kept_from(window.draw_picture)
     return params
 
 

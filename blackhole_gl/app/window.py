@@ -35,6 +35,7 @@ from . import (
 )
 from .area import Area
 from .ending import Ending
+from .failure import Failure
 from .file_dialog import FileDialog
 from .full_screen import FullScreen
 from .gesture import Editing, Gesture
@@ -109,7 +110,7 @@ def run(
         The state at the end.
 
     Raises:
-        WindowError: no display, or no OpenGL 3.3.
+        WindowError: no display, no OpenGL 3.3, or a frame failed.
         KeyboardInterrupt, SystemExit: the window was closed by a signal; see `ending`.
     """
     open_platform(null_platform)
@@ -129,8 +130,9 @@ def run(
             at_end.callback(window.live_chart.close)
             at_end.callback(window.picture_window.close)
             at_end.callback(window.dialog.close)
-            while not (params.app_shall_exit or ending.signal or (driver is not None and driver.finished)):
+            while not (params.app_shall_exit or ending.signal or window.failure.error or (driver is not None and driver.finished)):
                 immapp.manual_render.render()
+    window.failure.tell()
     return window.state
 
 
@@ -172,7 +174,8 @@ class Window:
         self.dialog = FileDialog()
         self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
         self._had_popup = False
-        self._bar = bar.toolbar(self.draw_bar)
+        self.failure = Failure()
+        self._bar = bar.toolbar(self.failure.kept_from(self.draw_bar))
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
         self.live_chart = LiveChart(make_renderer)
@@ -235,14 +238,15 @@ class Window:
     def frame(self) -> None:
         """The hand's doings, and what is written over the picture."""
         state, view = self.state, self.view()
-        dt = min(imgui.get_io().delta_time, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
+        passed = imgui.get_io().delta_time
+        dt = min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
         pressed, held = self._shortcuts.poll(state.panel_keys)
         for name in pressed:
             self.do(name)
         self._escape()
         hand = commands.Hand(*self._mouse.poll(view.height), held)
         state.dragging = self._mouse.drags
-        commands.advance(state, hand, dt)
+        commands.advance(state, hand, dt, passed - dt)
         if not self._gesture.lasts(hand, state.clock):
             state.record()
         self._was_moving = state.is_moving or bool(held)

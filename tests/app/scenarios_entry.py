@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from imgui_bundle import imgui
 
 # isort: split
@@ -290,3 +292,12 @@ def a_sideways_wheel_does_nothing(hands: Hands) -> None:
     hands.context.mouse_wheel_x(3.0)
     hands.settle()
     assert hands.scene == before
+
+
+def a_notice_leaves_in_time_while_the_window_sleeps(hands: Hands) -> None:
+    hands.press(Key.p)
+    hands.state.say("Saved")
+    before = hands.state.clock
+    time.sleep(0.5)  # a frame as long as those of a window that idles
+    hands.context.yield_(2)
+    assert 0.5 < hands.state.clock - before < 2.0, hands.state.clock - before

@@ -1,4 +1,4 @@
-"""What is said where no window can be opened: one sentence, no traceback, and by `check` the truth."""
+"""What is said where no window can be opened, or one fails: one sentence, no traceback, and by `check` the truth."""
 
 from __future__ import annotations
 
@@ -34,6 +34,42 @@ def test_a_window_that_cannot_be_opened_is_one_sentence(tmp_path: Path, command:
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
     assert line.startswith("blackhole-gl: no window") and reason in line
+
+
+FAILS_IN_A_FRAME = """
+import functools, os, sys
+from blackhole_gl import cli
+from blackhole_gl.app import help_window, panel, window
+from imgui_bundle import imgui
+
+where, part, frames = *sys.argv.pop(1).split("."), []
+owner = {"Window": window.Window, "Panel": panel.Panel, "help_window": help_window}[where]
+whole = getattr(owner, part)
+
+def failing(*args, **named):
+    frames.append(None)
+    if len(frames) == 10:
+        if part != "before_frame":
+            imgui.push_id("begun")
+        raise ValueError("some slip")
+    return whole(*args, **named)
+
+setattr(owner, part, failing)
+window.run = functools.partial(window.run, null_platform=True)
+cli.main()
+"""
+
+
+@pytest.mark.parametrize("where", ["Window.before_frame", "Window.frame", "Window.draw_bar", "Window.draw_picture", "Panel.draw", "help_window.draw"])
+def test_a_mistake_in_a_frame_is_one_sentence_and_what_the_window_keeps_is_kept(tmp_path: Path, where: str) -> None:
+    done = run([sys.executable, "-c", FAILS_IN_A_FRAME, where, "view", "--size", "410x320"], tmp_path, DISPLAY=":0")  # the null platform looks at none
+    (line,) = done.stderr.splitlines()
+    assert (done.returncode, done.stdout) == (2, "")
+    details = tmp_path / "window_failure.txt"
+    place = f"<string>, line {1 + FAILS_IN_A_FRAME[: FAILS_IN_A_FRAME.index('raise')].count(chr(10))}"
+    assert line == f"blackhole-gl: the window had to close, by a mistake of the program's: ValueError: some slip ({place}); the details are in {details}"
+    assert "in failing" in details.read_text(encoding="utf-8")
+    assert "window_size = [410, 320]" in (tmp_path / "window.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("desktop", ["x11", "wayland"])

@@ -52,6 +52,13 @@ def test_word_of_success_leaves(state):
     assert state.notice is None
 
 
+def test_word_of_success_leaves_while_the_window_sleeps(state):
+    state.say("Saved")
+    advance(state, Hand(), 1 / 60, slept=NOTICE_SECONDS)
+    assert state.notice is None
+    assert state.time == pytest.approx(state.scene.playback.rate / 60), "nothing else has gone on meanwhile"
+
+
 def test_reset_brings_back_everything_of_the_camera(state):
     away = {"camera.yaw_deg": 30.0, "camera.pitch_deg": -5.0, "camera.roll_deg": 12.0, "camera.fov_deg": 20.0, "camera.observer": "zamo"}
     state.change({**away, "camera.distance": 40.0})
