@@ -12,6 +12,11 @@ from .rows import columns, wrapped_tooltip
 from .state import WindowState
 from .thumbnails import ROW_EM, Thumbnails
 
+_UNPICKED = "the scene's own"
+_NO_SCENE = "none"
+_SCENE = "Scene"
+_HELP = "No preset was picked here. Other presets, an opened file or values set by hand say what one would."
+
 _HEADINGS = {"quality": "Quality of the picture", "steps": "Steps by hand", "scene": "Whole scenes", presets.USER_GROUP: "Your own"}
 
 
@@ -35,7 +40,7 @@ class Pickers:
         for label, groups in preset_switch.PICKERS.items():
             self._picker(label, groups, state)
         if any(info.group in preset_switch.WHOLE for info in self._listed):
-            self._picker("Scene", preset_switch.WHOLE, state)
+            self._picker(_SCENE, preset_switch.WHOLE, state)
         imgui.end_table()
 
     def _look_again(self, state: WindowState) -> None:
@@ -58,10 +63,12 @@ class Pickers:
         imgui.text_unformatted(label)
         imgui.table_next_column()
         imgui.set_next_item_width(-1.0)
-        shown = current.title + self._remarks.get(current.group, "") if current else "–"
+        shown = current.title + self._remarks.get(current.group, "") if current else unpicked(label)
         if not imgui.begin_combo(f"##{label} preset", shown, imgui.ComboFlags_.height_large.value):
             if current:
                 self._tooltip(current, f"{shown}\n")
+            else:
+                wrapped_tooltip(_HELP)
             return
         if imgui.is_window_appearing():
             self._listed = presets.available()
@@ -94,6 +101,11 @@ class Pickers:
 
     def _tooltip(self, info: presets.PresetInfo, before: str = "") -> None:
         wrapped_tooltip(before + summary(info), lambda: self._thumbnails.draw(info.name))
+
+
+def unpicked(label: str) -> str:
+    """What the picker `label` shows where no preset was picked."""
+    return _NO_SCENE if label == _SCENE else _UNPICKED
 
 
 def heading(info: presets.PresetInfo) -> str:

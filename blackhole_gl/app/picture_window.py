@@ -12,6 +12,7 @@ from typing import Any
 from imgui_bundle import hello_imgui, imgui
 
 from . import file_dialog, scene_files, theme
+from .divided import RightSide
 from .file_dialog import FileDialog
 from .state import WindowState
 from .still import Order, Still
@@ -67,8 +68,12 @@ class PictureWindow:
             self._still.close()
         self._still = self._order = None
 
-    def draw(self, state: WindowState) -> None:
-        """Draws the dialog when it is wanted; its close button puts it away, and a picture under way goes on."""
+    def draw(self, state: WindowState, right_side: Callable[[WindowState], RightSide | None]) -> None:
+        """Draws the dialog when it is wanted; its close button puts it away, and a picture under way goes on.
+
+        Args:
+            right_side: what stands right of a divider, if there is one.
+        """
         if not state.show_picture_window:
             self._path = ""
             return
@@ -85,7 +90,7 @@ class PictureWindow:
             self._rays_row(em)
             self._path_row(em)
             imgui.end_disabled()
-            self._last_row(state, em)
+            self._last_row(state, right_side, em)
         imgui.end()
         state.show_picture_window = bool(stays)
 
@@ -128,7 +133,7 @@ class PictureWindow:
     def _take_path(self, path: Path) -> None:
         self._path = self._replace = str(path if path.suffix.lower() == ".png" else path.with_name(path.name + ".png"))
 
-    def _last_row(self, state: WindowState, em: float) -> None:
+    def _last_row(self, state: WindowState, right_side: Callable[[WindowState], RightSide | None], em: float) -> None:
         if self.busy:
             share = self._still.share if self._still is not None else 0.0
             imgui.progress_bar(share, (-6.0 * em, 0.0), "writing …" if share >= 1.0 else f"{share:.0%}")
@@ -138,13 +143,13 @@ class PictureWindow:
                 self._said = "Stopped."
             return
         if imgui.button("Save", (6.0 * em, 0.0)):
-            self._begin(state)
+            self._begin(state, right_side(state))
         imgui.same_line()
         imgui.push_style_color(imgui.Col_.text, theme.DIM)
         imgui.text_wrapped(self._said or "The scene as it is now, without what is written over it.")
         imgui.pop_style_color()
 
-    def _begin(self, state: WindowState) -> None:
+    def _begin(self, state: WindowState, right: RightSide | None) -> None:
         path = Path(self._path.strip()).expanduser()
         if path.suffix.lower() != ".png":
             self._said = f"{path.name or 'The file'}: only PNG is written here; end the name in .png."
@@ -152,7 +157,7 @@ class PictureWindow:
             self._replace, self._said = str(path), f"{path.name} exists. Save again to replace it."
         else:
             self._replace = self._said = ""
-            self._order = Order(state.scene, state.time, self._size, self._samples, path)
+            self._order = Order(state.scene, state.time, self._size, self._samples, path, right)
 
 
 def _label(text: str, em: float) -> None:

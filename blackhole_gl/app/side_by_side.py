@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import moderngl
+import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
 from ..measure import live
@@ -17,6 +18,7 @@ from ..measure.gauge import Gauged, gauging
 from ..scene import Scene, SceneError, presets
 from . import overlay, theme
 from .area import Area
+from .divided import RightSide, joined
 from .picture import Picture
 from .preparation import Preparation, Submit
 from .sides import KEPT, MOST_ACCURATE, Sides
@@ -83,7 +85,7 @@ class SideBySide:
 
         Args:
             now: any clock in seconds.
-            moving, camera_moving: as for `Picture.update`.
+            moving, camera_moving: as for `Picture.update`; where a picture is to be saved, this side too is made sharp at once.
         """
         if not state.show_sides:
             return
@@ -91,7 +93,7 @@ class SideBySide:
             self._picture = Picture(gl, self._make_renderer(gl), Preparation(self._submit))
         try:
             other = self.sides.other(state.scene)
-            self._picture.update(other, state.time, area, moving=moving, camera_moving=camera_moving)
+            self._picture.update(other, state.time, area, moving=moving, camera_moving=camera_moving, exact=state.picture_wanted)
             self.failure = None
         except Exception as error:  # whatever the other side cannot do, this one stays, and the reason is told
             self.failure = str(error) or type(error).__name__
@@ -102,6 +104,16 @@ class SideBySide:
         self._still_since = now if self._still_since is None else self._still_since
         if now - self._still_since >= _RESTS:
             self._measure(gl, (state.scene, other), area)
+
+    def right_side(self, state: WindowState) -> RightSide | None:
+        """What stands right of the divider; None where it is put away or nothing can."""
+        return RightSide(self.sides.other(state.scene), self.sides.share) if state.show_sides and not self.failure else None
+
+    def joined(self, state: WindowState, pixels: np.ndarray) -> np.ndarray | None:
+        """The left side's `pixels` with the other side's beside them, as the window shows them; None while these are still to come."""
+        if not state.show_sides or self.failure:
+            return pixels
+        return joined(pixels, self._picture.read_rgb8(), self.sides.share) if self._picture is not None and self._picture.is_current else None
 
     def reload(self) -> None:
         """Takes up shader files that were edited; what is wrong with them is told of the left side's."""

@@ -9,10 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..output import png
 from ..render.annotation import annotated
 from ..render.views import View
 from ..scene import Scene, presets
+from .divided import RightSide, joined
 
 TILE = 128
 """Side of its tiles in pixels: one with a ray a pixel takes some tens of milliseconds on a software renderer."""
@@ -29,6 +32,7 @@ class Order:
         size: (width, height) in pixels.
         samples: rays a pixel along each axis.
         path: where it goes.
+        right: what stands right of a divider; None without one. The file opens as the left side.
     """
 
     scene: Scene
@@ -36,6 +40,7 @@ class Order:
     size: tuple[int, int]
     samples: int
     path: Path
+    right: RightSide | None = None
 
 
 class Still:
@@ -49,7 +54,9 @@ class Still:
     def __init__(self, renderer: Any, order: Order):
         self.order, self.share, self.failure = order, 0.0, ""
         self._renderer = renderer
-        self._drawing: Iterator[float] | None = renderer.still(order.scene, order.time, order.size, order.samples, TILE)
+        self._sides = [order.scene] if order.right is None else [order.scene, order.right.scene]
+        self._drawn: list[np.ndarray] = []
+        self._drawing: Iterator[float] | None = self._draw_sides()
         self._writer = ThreadPoolExecutor(1)  # a large picture takes seconds to compress
         self._written: Future | None = None
 
@@ -66,7 +73,7 @@ class Still:
         try:
             while clock.perf_counter() - began < _FRAME_SHARE_S:
                 if self._draw():
-                    self._written = self._writer.submit(self._write, self._renderer.read_rgb8(), self._renderer.view_of(self.order.scene))
+                    self._written = self._writer.submit(self._write, self._renderer.view_of(self.order.scene))
                     return
         except Exception as error:  # whatever the renderer cannot do: too large a picture, say
             self.failure = str(error) or type(error).__name__
@@ -89,6 +96,14 @@ class Still:
         self._renderer.release()
         self._writer.shutdown()
 
+    def _draw_sides(self) -> Iterator[float]:
+        """Yields the share that is drawn."""
+        order = self.order
+        for side in self._sides:
+            for share in self._renderer.still(side, order.time, order.size, order.samples, TILE):
+                yield (len(self._drawn) + share) / len(self._sides)
+            self._drawn.append(self._renderer.read_rgb8())
+
     def _draw(self) -> bool:
         """Draws one tile with one ray a pixel; whether that was the last."""
         assert self._drawing is not None
@@ -96,6 +111,7 @@ class Still:
         self.share = 1.0 if share is None else share
         return share is None
 
-    def _write(self, pixels: Any, view: View | None) -> None:
+    def _write(self, view: View | None) -> None:
         order = self.order
+        pixels = self._drawn[0] if order.right is None else joined(self._drawn[0], self._drawn[1], order.right.share)
         png.write(order.path, annotated(pixels, order.scene, view), presets.picture_text(order.scene, order.time, order.path.absolute().parent))

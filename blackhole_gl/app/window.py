@@ -263,7 +263,7 @@ class Window:
             self.start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
         self._search.draw(state, lambda: search_window.entries(state, self._panel.shown_fields(state.scene), self.bindings, self.do))
         self.dialog.poll()
-        self.picture_window.draw(state)
+        self.picture_window.draw(state, self.side_by_side.right_side)
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
@@ -375,9 +375,11 @@ class Window:
             self.warm_up.start()
         if state.show_overlay and not failed and not (rendered and self.picture.samples == 1 and self.picture.report.traced):
             self.picture.count_rays()
-        wanted, state.picture_wanted = state.picture_wanted, False
-        if wanted and not failed:
-            scene_files.save_picture(state, self.picture.read_rgb8(), self.picture.renderer.view_of(state.scene), self._picture_folder)
+        if state.picture_wanted:
+            pixels = None if failed else self.side_by_side.joined(state, self.picture.read_rgb8())
+            if pixels is not None:
+                scene_files.save_picture(state, pixels, self.picture.renderer.view_of(state.scene), self._picture_folder)
+            state.picture_wanted = pixels is None and not failed
 
     def _reload_shaders(self) -> None:
         """Takes up shader files that were edited. The mistakes in them are shown; the programs they would replace stay."""

@@ -286,6 +286,20 @@ def nothing_in_the_panel_moves_when_a_value_changes(hands: Hands) -> None:
         assert places() == before, changed
 
 
+def a_picker_without_a_preset_says_so(hands: Hands) -> None:
+    shown, begin = {}, imgui.begin_combo
+    imgui.begin_combo = lambda label, preview, *rest: shown.update({label: preview}) or begin(label, preview, *rest)
+    try:
+        hands.context.yield_(2)
+        assert shown["##Physics preset"] == "Kerr, a* = 0.9" and shown["##Scene preset"] == "none"
+        assert shown["##Look preset"] == "the scene's own", "the preset kerr says nothing of it"
+        preset_switch.pick(hands.state, "look", "smooth")
+        hands.context.yield_(2)
+        assert shown["##Look preset"] == "Smooth"
+    finally:
+        imgui.begin_combo = begin
+
+
 def what_is_saved_appears_in_the_picker(hands: Hands) -> None:
     hands.fill("##file", "mine")
     hands.press(Key.mod_ctrl | Key.s)
@@ -639,6 +653,12 @@ def side_by_side(hands: Hands) -> None:
     hands.context.yield_(3)
     assert abs(divided.sides.share - (0.5 - 100.0 / hands.window.view().width)) < 0.01
     assert hands.scene.camera == camera and [kept.traces for kept in maps] == traces, "the divider moves, and nothing else"
+    both = _pixels(save_picture(hands))
+    stills = _pixels(_still(hands, "both.png"))
+    for whole, picture in ((both, _alone(hands, save_picture)), (stills, _alone(hands, lambda hands: _still(hands, "left.png")))):
+        middle = round(divided.sides.share * whole.shape[1])
+        assert np.array_equal(whole[:, : middle - 1], picture[:, : middle - 1]) and len(np.unique(whole[:, middle - 1 : middle + 1])) == 3, "a grey line"
+        assert np.abs(whole[:, middle + 1 :].astype(int) - picture[:, middle + 1 :]).max() > 50, "what the other side shows"
     hands.context.key_hold(Key.left_arrow, 0.3)
     hands.settle()
     wait(hands, lambda: hands.window.picture.is_sharp and divided.picture.is_sharp, seconds=60.0)
@@ -656,6 +676,31 @@ def side_by_side(hands: Hands) -> None:
     assert divided.sides.other(hands.scene).hole.spin == 0.0 and divided.sides.other(hands.scene).camera == hands.scene.camera
     hands.press(Key.d)
     assert not hands.state.show_sides and not divided.busy(hands.state) and not hands.state.render_error
+
+
+def _alone(hands: Hands, save) -> np.ndarray:
+    """The picture that `save` saves with the divider put away."""
+    hands.press(Key.d)
+    found = _pixels(save(hands))
+    hands.press(Key.d)
+    return found
+
+
+def _pixels(path: Path) -> np.ndarray:
+    return np.asarray(Image.open(path).convert("RGB"))
+
+
+def _still(hands: Hands, name: str) -> Path:
+    """A small picture by the picture window."""
+    path, window = hands.folder / name, hands.window.picture_window
+    hands.state.show_picture_window = True
+    hands.context.yield_(2)
+    for item, value in (("##width", 90), ("##height", 60), ("##rays", 1), ("##path", str(path))):
+        hands.context.item_input_value(f"//Picture/{item}", value)
+    hands.context.item_click("//Picture/Save")
+    wait(hands, lambda: not window.busy and path.exists(), seconds=60.0)
+    hands.press(Key.escape)
+    return path
 
 
 def preset_switches_never_freeze(hands: Hands) -> None:
