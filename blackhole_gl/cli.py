@@ -25,7 +25,7 @@ app = typer.Typer(
 )
 
 _COMMANDS = ("view", "render", "trace", "plan", "bench", "check", "presets")
-_FLAGS = ("--measure", "--float64", "--euler", "--no-euler")  # options that no value follows
+_FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
 
 Named = Annotated[
     list[str] | None,
@@ -44,6 +44,7 @@ Settings = Annotated[
     list[str] | None,
     typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
 ]
+AnyFile = Annotated[bool, typer.Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
 Backend = Annotated[str, typer.Option(help="How to get a GL context without a window: auto, egl or osmesa.", envvar="BLACKHOLE_GL_BACKEND")]
 
 
@@ -100,6 +101,7 @@ def view(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
+    any_file: AnyFile = False,
     size: Annotated[str | None, typer.Option(help="Width × height of the window.", show_default="that of the last one, or 1280x800")] = None,
     time: Annotated[float | None, typer.Option(help="Scene time in r_s/c to begin at. When not given: a saved scene's, or 0.", show_default=False)] = None,
 ) -> None:
@@ -111,7 +113,7 @@ def view(
     if not (preset or set_) and (last := _last_scene()):
         scene, begins = last[0], last[1] if time is None else begins
     else:
-        scene, preset = _scene(preset, set_), preset or list(preset_files.DEFAULT_PRESETS)
+        scene, preset = _scene(preset, set_, any_file), preset or list(preset_files.DEFAULT_PRESETS)
     if not display_present():
         out = Path("blackhole.png").resolve()
         print("There is no display (DISPLAY is not set; under Wayland, XWayland sets it), so no window can be opened.")
@@ -121,7 +123,7 @@ def view(
         return
     from .app import window
 
-    window.run(scene, preset_names=preset, time=begins, size=_size(size) if size else None)
+    window.run(scene, preset_names=preset, any_file=any_file, time=begins, size=_size(size) if size else None)
 
 
 @app.command()
@@ -130,6 +132,7 @@ def render(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
+    any_file: AnyFile = False,
     size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
     time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
     supersample: Annotated[
@@ -139,7 +142,7 @@ def render(
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_)
+    scene = _scene(preset, set_, any_file)
     refuse_unwritable(out, (".png",), "a PNG picture")
     _refuse_unmet(scene, set_)
     _render(scene, _size(size), _time(time, preset), out, supersample or scene.rays.in_stills, backend)
@@ -152,6 +155,7 @@ def trace(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
+    any_file: AnyFile = False,
     float64: Annotated[bool, typer.Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
     backend: Backend = "auto",
 ) -> None:
@@ -162,7 +166,7 @@ def trace(
     from . import listed_rays
 
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_)
+    scene = _scene(preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     listed = listed_rays.read(rays, scene)
     _refuse_unmet(scene, set_)
@@ -179,6 +183,7 @@ def plan(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
+    any_file: AnyFile = False,
     measure: Annotated[bool, typer.Option("--measure", help="Measure error and cost here and now beside the predictions.")] = False,
     backend: Backend = "auto",
 ) -> None:
@@ -186,7 +191,7 @@ def plan(
     from . import plan as planning
 
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_)
+    scene = _scene(preset, set_, any_file)
     chosen, made = planning.choice.choose(scene), planning.plan(scene)
     moving = planning.choice.refinement(chosen.scene)
     print(f"method     {made.method}")
@@ -216,6 +221,7 @@ def bench(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
+    any_file: AnyFile = False,
     size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
     rounds: Annotated[int, typer.Option(min=1, max=100, help="Frames of each kind; medians are taken.")] = 5,
     json: Annotated[Path | None, typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
@@ -227,7 +233,7 @@ def bench(
 
     from .measure import bench as benching
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_)
+    scene = _scene(preset, set_, any_file)
     if json is not None:
         refuse_unwritable(json, (".json",), "JSON")
     sizes = [_size(text) for text in size] if size else benching.SIZES
@@ -259,7 +265,7 @@ def presets(
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
-        print(preset_files.dumps(_scene([name], None), full=True), end="")
+        print(preset_files.dumps(_scene([name], None, any_file=True), full=True), end="")
         return
     group = ""
     for info in preset_files.available():
@@ -269,11 +275,11 @@ def presets(
         print(f"  {info.name:20} {info.title}")
 
 
-def _scene(names: list[str] | None, assignments: list[str] | None) -> Scene:
+def _scene(names: list[str] | None, assignments: list[str] | None, any_file: bool) -> Scene:
     for former, present in preset_files.renamed(names or ()).items():
         print(f"blackhole-gl: the preset {former} is now called {present}; `blackhole-gl presets` lists the levels of quality", file=sys.stderr)
-    scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()))
-    for sentence in preset_files.skipped(names or ()):
+    scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()), any_file=any_file)
+    for sentence in preset_files.skipped(names or (), any_file=any_file):
         print(f"blackhole-gl: {sentence}", file=sys.stderr)
     return scene
 
@@ -286,7 +292,7 @@ def _last_scene() -> tuple[Scene, float] | None:
     if not path.is_file():
         return None
     try:
-        return _scene([str(path)], None), float(preset_files.read(path).time or 0.0)
+        return _scene([str(path)], None, any_file=True), float(preset_files.read(path).time or 0.0)
     except SceneError as error:
         print(f"blackhole-gl: the last scene is left out: {error}", file=sys.stderr)
         return None

@@ -51,7 +51,7 @@ class Pickers:
             if {(group, name) for group, name in state.chosen.items()} - {(info.group, info.name) for info in self._listed}:
                 self._listed = presets.available()  # one has just been saved
             paths = {info.name: info.path for info in reversed(self._listed)}
-            self._layers = {group: presets.read(paths[name]) for group, name in state.chosen.items() if name in paths}
+            self._layers = {group: presets.read(paths[name], any_file=True) for group, name in state.chosen.items() if name in paths}
         self._seen = state.scene, dict(state.chosen)
         self._remarks = {group: preset_switch.remark(keys) for group, keys in preset_switch.left(state.scene, self._layers).items()}
 

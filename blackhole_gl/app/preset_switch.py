@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ..scene import Scene, instances, presets
 from ..scene.catalogue import KIND
+from . import files_outside
 from .state import WindowState
 
 PICKERS: Mapping[str, tuple[str, ...]] = {"Physics": ("physics",), "Look": ("look",), "Quality": ("quality", "steps")}
@@ -29,15 +30,15 @@ def chosen_among(names: Iterable[str]) -> dict[str, str]:
     return found if told else {**found, **DEFAULT_QUALITY}
 
 
-def start(scene: Scene, names: Sequence[str]) -> WindowState:
+def start(scene: Scene, names: Sequence[str], *, any_file: bool = False) -> WindowState:
     """The state of a window that opens on `scene`, made from the presets called `names` and what was set besides; from none where there are none."""
     if not names:
         return WindowState.start(scene)
-    state = WindowState.start(scene, chosen_among(names), presets.load(names))
+    state = WindowState.start(scene, chosen_among(names), presets.load(names, any_file=any_file))
     if timed := presets.last_timed(names):
         state.play_from(timed)
-    if skipped := presets.skipped(names):
-        state.tell("Opened, but for what this version does not know.", skipped)
+    if skipped := presets.skipped(names, any_file=any_file):
+        state.tell("Opened, but for some of it.", skipped)
     return state
 
 
@@ -47,23 +48,25 @@ def pick(state: WindowState, group: str, name: str) -> None:
     What the new preset sets is set, but for what layers above it set too; what only its forerunner in the picker had set goes back to what the
     other layers say; all else stays. A preset of a whole scene replaces everything.
     """
+    any_file = files_outside.allowed(state, name)
     try:
-        preset = presets.read(name)
+        preset = presets.read(name, any_file=any_file)
         if group in WHOLE:
-            scene = home = presets.load([name])
+            scene = home = presets.load([name], any_file=any_file)
             chosen = chosen_among([name])
         else:
             rivals = next(groups for groups in PICKERS.values() if group in groups)
             old = [state.chosen[rival] for rival in rivals if rival in state.chosen]
             chosen = {key: value for key, value in state.chosen.items() if key in LAYERED and key not in rivals} | {group: name}
             scene, home = (_laid(preset, old, chosen, before) for before in (state.scene, state.home))
+        refused = preset.refused(scene)
     except presets.SceneError as error:
         state.complain(str(error))
         return
     state.put_in_force(home, chosen, scene)
     state.play_from(preset)
-    if preset.skipped:
-        state.tell(f"Took the preset {name}.", preset.skipped)
+    if preset.skipped or refused or any_file:
+        files_outside.tell(state, f"Took the preset {name}.", name, preset, refused, "Pick it again")
 
 
 def left(scene: Scene, in_force: Mapping[str, presets.Preset]) -> dict[str, tuple[str, ...]]:

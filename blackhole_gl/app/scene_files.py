@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from ..output import png
 from ..render.annotation import annotated
 from ..render.views import View
 from ..scene import Scene, presets
-from . import preset_switch
+from . import files_outside, preset_switch
 from .state import WindowState
 
 
@@ -51,13 +52,15 @@ def save(state: WindowState) -> None:
 def load(state: WindowState) -> None:
     """Shows the scene of the file named in the file field, a preset or a picture that was saved here."""
     path = path_of(state.file)
+    any_file = files_outside.allowed(state, str(path))
     try:
-        scene, preset = presets.load([path]), presets.read(path)
+        scene, preset = presets.load([path], any_file=any_file), presets.read(path, any_file=any_file)
+        refused = preset.refused(Scene())
     except presets.SceneError as error:
         state.complain(str(error))
         return
     _open(state, scene, preset)
-    state.tell(f"Loaded {path}", preset.skipped)
+    files_outside.tell(state, f"Loaded {path}", str(path), preset, refused, "Load it again")
 
 
 def open_chosen(state: WindowState, path: Path) -> None:
@@ -85,12 +88,13 @@ def take(state: WindowState, text: str) -> None:
         preset = presets.parse(text, "clipboard")
         if not preset.values:
             raise presets.PresetError("; ".join(["holds no value of a scene", *preset.skipped[:1], "copy a preset's text first"]), source="clipboard")
-        scene = preset.over(Scene())
+        preset = replace(preset, any_file=files_outside.allowed(state, text))
+        scene, refused = preset.over(Scene()), preset.refused(Scene())
     except presets.SceneError as error:
         state.complain(str(error))
         return
     _open(state, scene, preset)
-    state.tell("Took the scene from the clipboard.", preset.skipped)
+    files_outside.tell(state, "Took the scene from the clipboard.", text, preset, refused, "Paste it again")
 
 
 def _open(state: WindowState, scene: Scene, preset: presets.Preset) -> None:

@@ -51,6 +51,7 @@ class WindowState:
         panel_keys: whether TAB, arrows, SPACE and ENTER work the panel.
         sought: the setting that the panel is to show.
         replace_file: the path that the next Save may overwrite.
+        asked_for_files: the preset whose files outside its folder were just left out; see `files_outside`.
         way_out: a line for where nothing is to be seen; empty elsewhere.
         shader_error: what is wrong with the shaders on disk, or None.
         render_error: why the last picture could not be made, or None.
@@ -81,6 +82,7 @@ class WindowState:
     picture_wanted: bool = False
     file: str = "scene.toml"
     replace_file: str = ""
+    asked_for_files: str = ""
     notice: Notice | None = None
     way_out: str = ""
     shader_error: str | None = None

@@ -88,6 +88,7 @@ def run(
     scene: Scene,
     *,
     preset_names: Sequence[str] = (),
+    any_file: bool = False,
     null_platform: bool = False,
     time: float | None = None,
     size: tuple[int, int] | None = None,
@@ -99,6 +100,7 @@ def run(
 
     Args:
         preset_names: the presets that `scene` was made from, shown in the panel's pickers.
+        any_file: whether these may name files outside their own folders.
         null_platform: no display at all: GLFW's null platform on EGL.
         time: scene time at which it begins, in r_s/c; that of the presets when None.
         size: width and height in units of a 96 dpi screen; those kept from the last window, or the usual ones, when None.
@@ -114,7 +116,7 @@ def run(
         KeyboardInterrupt, SystemExit: the window was closed by a signal; see `ending`.
     """
     open_platform(null_platform)
-    window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, may_idle=not null_platform)
+    window = Window(scene, preset_names, picture_folder or Path.cwd(), make_renderer or _default_renderer, any_file=any_file, may_idle=not null_platform)
     if time is not None:
         window.state.time = time
     params = runner.parameters(window, size or window.kept.first_size)
@@ -147,16 +149,23 @@ class Window:
 
     Args:
         scene: the first scene.
-        preset_names: what it was made from.
+        preset_names, any_file: what it was made from, and whether these may name files outside their own folders.
         picture_folder: where pictures go.
         make_renderer: see `run`.
         may_idle: whether to sleep while nothing moves; a driver's input would not wake the window.
     """
 
     def __init__(
-        self, scene: Scene, preset_names: Sequence[str], picture_folder: Path, make_renderer: Callable[[moderngl.Context], Any], *, may_idle: bool
+        self,
+        scene: Scene,
+        preset_names: Sequence[str],
+        picture_folder: Path,
+        make_renderer: Callable[[moderngl.Context], Any],
+        *,
+        any_file: bool = False,
+        may_idle: bool,
     ):
-        self.open(scene, preset_names)
+        self.open(scene, preset_names, any_file=any_file)
         self.kept, told = kept.load()
         if told:
             self.state.complain(told)
@@ -188,9 +197,9 @@ class Window:
         self._was_moving = False
         self._editing = Editing(scene)
 
-    def open(self, scene: Scene, preset_names: Sequence[str] = ()) -> None:
+    def open(self, scene: Scene, preset_names: Sequence[str] = (), *, any_file: bool = False) -> None:
         """Starts afresh on `scene`, made from the presets of these names, or from none."""
-        self.state = preset_switch.start(scene, preset_names)
+        self.state = preset_switch.start(scene, preset_names, any_file=any_file)
         self.state.shader_error = _shader_mistakes(())
         self._panel = Panel()
 

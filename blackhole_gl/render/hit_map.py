@@ -19,7 +19,7 @@ from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
-from .tables import RAY_UNIT, Tables
+from .tables import Tables
 from .target import Target
 
 # Slices that a refined map is sharpened in, one a frame.
@@ -135,9 +135,9 @@ class HitMap:
     def _bind_tables(self, rays: Draw) -> None:
         """Gives the trace pass what it looks up: tables of the ray model, and the things and media that rays may meet."""
         plan = rays.inputs.plan
-        self.tables.bind(rays, chosen(plan, *RAY_SLOTS))
+        things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
+        self.tables.bind(rays, chosen(plan, *RAY_SLOTS), things)
         if plan.meetings:
-            rays.sample(self.instances.samplers(plan, rays.inputs.time), RAY_UNIT + 1)
             rays.set(meeting_reach=plan.reach)
 
     @property

@@ -16,19 +16,23 @@ from ..plan import Plan
 from ..scene import Instance, Scene, catalogue, met, surfaces
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field, Value, number_of
-from . import lamps
+from . import lamps, pictures
 
 _NUMBERS = ("float", "int", "switch", "choice")
-"""Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the options."""
+"""Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the
+options, a picture by its layer in the array of pictures, −1 for none."""
 
 _MOTION = ("bound", "velocity", "spin", "attitude")
 """A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
 
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
-    """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind."""
+    """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind; the
+    array of pictures, if any kind has one."""
     kinds = list(kinds)
     lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
+    if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):
+        lines.append(f"uniform sampler2DArray {pictures.ARRAY};")
     lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
@@ -127,7 +131,7 @@ def _width(item: Field) -> int:
     """Numbers that shaders are given for it; 0: they do not know it."""
     if item.kind == "list":
         return int(item.low) if item.low == item.high and 2 <= item.low <= 4 and item.element is not None and item.element.kind in ("float", "int") else 0
-    return int(item.kind in _NUMBERS)
+    return int(item.kind in _NUMBERS or pictures.is_picture(item))
 
 
 def _places(kind: PlugIn) -> tuple[list[tuple[Field, int]], int]:
@@ -150,15 +154,18 @@ def _rows(kind: PlugIn, plan: Plan, time: float) -> np.ndarray:
     """float32 (instances, columns, 4)."""
     first, (places, length) = 4 * len(_motion_names(kind)), _places(kind)
     found = [entry for entry in motion.motions(plan.scene, kind.slot, plan.space_time, time) if entry[0].kind == kind.key]
+    layers = pictures.layers(plan.scene)
     rows = np.zeros((len(found), length), np.float32)
     for row, (instance, here) in zip(rows, found):
         row[:first] = (*here.centre, here.reach, *here.velocity, 0.0, *here.spin, 0.0, *here.attitude)[:first]
         for item, place in places:
-            row[place : place + _width(item)] = _numbers(item, instance.values[item.key])
+            row[place : place + _width(item)] = _numbers(item, instance.values[item.key], layers)
     return rows.reshape(len(found), -1, 4)
 
 
-def _numbers(item: Field, value: Value) -> tuple[float, ...]:
+def _numbers(item: Field, value: Value, layers: Mapping[str, int]) -> tuple[float, ...]:
     if isinstance(value, tuple):
         return tuple(map(number_of, value))
-    return (float(item.options.index(value)) if isinstance(value, str) else number_of(value),)
+    if isinstance(value, str):
+        return (float(layers.get(value, -1) if item.kind == "file" else item.options.index(value)),)
+    return (number_of(value),)

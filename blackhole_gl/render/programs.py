@@ -25,6 +25,9 @@ MOST_KEPT = 64
 """Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as
 drivers keep what they compiled on disk."""
 
+Samplers = Mapping[str, moderngl.Texture | moderngl.TextureArray]
+"""Sampler's name → texture."""
+
 _SERIALS = count(1)
 
 RAY_SLOTS = ("ray_model", "integrator", "step_control")
@@ -102,7 +105,7 @@ class Draw:
         """The program, which takes samplers and loose uniforms."""
         return self.compiled.program
 
-    def sample(self, samplers: Mapping[str, moderngl.Texture], first: int = 0) -> None:
+    def sample(self, samplers: Samplers, first: int = 0) -> None:
         """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
         used = [name for name in samplers if name in self.program]
         for unit, name in enumerate(used, first):

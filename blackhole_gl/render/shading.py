@@ -9,7 +9,7 @@ from ..glsl.declared import PixelClass
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
-from .programs import SHADE_SLOTS, Draw, Programs, chosen
+from .programs import SHADE_SLOTS, Draw, Programs, Samplers, chosen
 from .sorting import PixelSorting, Sorted
 from .tables import Tables
 from .target import Target
@@ -83,7 +83,9 @@ class ShadePass:
             return
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        key = (sky.serial, self._sorted and self._sorted.key, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters)
+        pictures = self._tables.pictures.of(chosen(inputs.plan, "sky"), scene)
+        sorting = self._sorted and self._sorted.key
+        key = (sky.serial, sorting, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0)
         if key != self._sky_key or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(frame, inputs, hit_map)
@@ -120,7 +122,7 @@ class ShadePass:
             prepared.set(finer=min(inputs.finer))
         return prepared
 
-    def stars(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[Draw, dict[str, moderngl.Texture]]:
+    def stars(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[Draw, Samplers]:
         """What draws the single stars of a picture that is to be shown enlarged, and was drawn without them; its samplers are still to be bound."""
         return self._programs.get("star_layer.frag", inputs, {**hit_map.switches(), **TONE_TABLE}), self._samplers(inputs, hit_map)
 
@@ -131,10 +133,13 @@ class ShadePass:
             prepared.set(block_side=float(hit_map.block_side))
         return prepared
 
-    def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> dict[str, moderngl.Texture]:
-        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), inputs.plan.scene)
-        things = hit_map.instances.samplers(inputs.plan, inputs.time) if inputs.plan.meetings else {}
-        return {**hit_map.samplers(), **declared, **things, "temperature_profile": self._temperatures.of(inputs.plan)}
+    def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> Samplers:
+        scene = inputs.plan.scene
+        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), scene)
+        found: dict[str, moderngl.Texture | moderngl.TextureArray] = {**hit_map.samplers(), **declared}
+        if inputs.plan.meetings:
+            found |= {**hit_map.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
+        return {**found, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
         """Draws where the pixel's class compares with `depth`: ``>`` where it is below, ``<`` where it is beyond; inside `box`, if one is given."""

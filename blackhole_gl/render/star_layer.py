@@ -5,12 +5,10 @@ Drawn with the rest, a star's light would lie on a coarse pixel or two: as much 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import moderngl
 import numpy as np
 
-from .programs import Draw
+from .programs import Draw, Samplers
 from .target import Target
 
 _ROW = 256  # pixels in a row of the list
@@ -27,7 +25,7 @@ class StarLayer:
     def draw(
         self,
         stars: Draw,
-        samplers: Mapping[str, moderngl.Texture],
+        samplers: Samplers,
         radiance: Target,
         target: moderngl.Framebuffer,
         viewport: tuple[int, int, int, int],

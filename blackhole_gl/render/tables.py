@@ -1,8 +1,9 @@
-"""The textures that plug-ins declare in their headers: made when what they depend on changes, and only then."""
+"""The textures that plug-ins declare in their headers, tables and pictures: made when what they depend on changes, and only then."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from types import MappingProxyType
 from typing import Any
 
 import moderngl
@@ -11,10 +12,11 @@ import numpy as np
 from ..scene import Scene
 from ..scene.catalogue import CatalogueError, PlugIn
 from ..scene.tables import Table
-from .programs import Draw
+from .pictures import Pictures
+from .programs import Draw, Samplers
 
 RAY_UNIT = 7
-"""The first texture unit of tables that rays are traced with, above those of all other samplers."""
+"""The first texture unit of what rays are traced with, above those of all other samplers."""
 
 _DTYPES = {np.dtype(np.uint8): "f1", np.dtype(np.float16): "f2", np.dtype(np.float32): "f4"}
 _FILTERS = {
@@ -28,28 +30,34 @@ class Tables:
     """The tables of whatever plug-ins are in use.
 
     Attributes:
+        pictures: those that parameters name.
         made: how many tables have been made, for tests.
     """
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
+        self.pictures = Pictures(ctx)
         self.made = 0
         self._kept: dict[Table, tuple[tuple[Any, ...], moderngl.Texture]] = {}
 
     def of(self, plug_ins: Iterable[PlugIn], scene: Scene) -> dict[str, moderngl.Texture]:
-        """Sampler's name → texture of all tables that `plug_ins` declare, as `scene` wants them.
+        """Sampler's name → texture of all tables that `plug_ins` declare and all pictures that their parameters name, as `scene` wants them.
 
         Raises:
             CatalogueError: a header names what is not there, or what makes no table.
+            SceneError: a picture cannot be used.
         """
-        return {table.name: self._texture(table, scene) for plug_in in plug_ins for table in plug_in.tables}
+        plug_ins = list(plug_ins)
+        made = {table.name: self._texture(table, scene) for plug_in in plug_ins for table in plug_in.tables}
+        return {**made, **self.pictures.of(plug_ins, scene)}
 
-    def bind(self, rays: Draw, plug_ins: Iterable[PlugIn]) -> None:
-        """Gives the trace pass `rays` the tables of `plug_ins`."""
-        rays.sample(self.of(plug_ins, rays.inputs.plan.scene), RAY_UNIT)
+    def bind(self, rays: Draw, plug_ins: Iterable[PlugIn], others: Samplers = MappingProxyType({})) -> None:
+        """Gives the trace pass `rays` the tables and pictures of `plug_ins`, and `others` by their samplers' names."""
+        rays.sample({**self.of(plug_ins, rays.inputs.plan.scene), **others}, RAY_UNIT)
 
     def release(self) -> None:
         """Gives the GL objects back."""
+        self.pictures.release()
         for _, texture in self._kept.values():
             texture.release()
         self._kept = {}

@@ -344,6 +344,26 @@ def test_scene_and_time_open_as_they_were(state, tmp_path, by):
     assert (state.scene, state.time, state.paused) == as_it_was
 
 
+@pytest.mark.parametrize("by", ["file", "clipboard", "picker"])
+def test_files_outside_a_presets_folder_are_opened_when_it_is_taken_a_second_time(state, tmp_path, by):
+    (presets.user_presets_dir()).mkdir(parents=True, exist_ok=True)
+    path = presets.user_presets_dir() / "mine.toml"
+    path.write_text(f"[sky]\nmodel = 'picture'\n[sky.picture]\nfile = '{tmp_path / 'far.png'}'\n")
+    state.file = str(path)
+    ways = {
+        "file": lambda: scene_files.load(state),
+        "clipboard": lambda: scene_files.take(state, path.read_text()),
+        "picker": lambda: preset_switch.pick(state, "user", "mine"),
+    }
+    ways[by]()
+    assert state.scene.sky.model == "picture" and state.scene.get("sky.picture.file") == ""
+    assert state.notice.is_error and f"left out: the file {tmp_path / 'far.png'}" in state.notice.text and "again to have them opened" in state.notice.text
+    ways[by]()
+    assert state.scene.get("sky.picture.file") == str(tmp_path / "far.png") and not state.notice.is_error
+    ways[by]()
+    assert state.scene.get("sky.picture.file") == "", "it is asked for each time anew"
+
+
 def remarks(state):
     in_force = {group: presets.read(name) for group, name in state.chosen.items()}
     return {group: preset_switch.remark(keys) for group, keys in preset_switch.left(state.scene, in_force).items()}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -318,7 +319,39 @@ def test_a_presets_paths_start_at_its_own_folder(preset_file, tmp_path):
     assert scene.get("things.moon.image") == str(tmp_path / "deep" / "pictures" / "moon.png")
     assert scene.get("things.moon.path")[0]["image"] == str(tmp_path / "deep" / "later.png")
     other = preset_file("[things.moon]\nimage = '../moon.jpg'\n", "other/b.toml")
-    assert os.path.normpath(presets.load([path, other]).get("things.moon.image")) == str(tmp_path / "moon.jpg")
+    assert os.path.normpath(presets.load([path, other], any_file=True).get("things.moon.image")) == str(tmp_path / "moon.jpg")
+
+
+@pytest.mark.parametrize("there", ["../moon.png", "/etc/moon.png", "~/moon.png", "pictures/../../moon.png", "//elsewhere/share/moon.png", "link.png"])
+def test_a_preset_opens_no_file_outside_its_folder_unless_asked(preset_file, tmp_path, there):
+    path = preset_file(f"[things.moon]\nkind = 'globe'\nradius = 2.0\nimage = '{there}'\npath = [{{image = '{there}'}}]\n", "deep/mine.toml")
+    (tmp_path / "deep" / "link.png").symlink_to(tmp_path / "moon.png")
+    scene = presets.load([path])
+    assert (scene.get("things.moon.image"), scene.get("things.moon.path")[0]["image"], scene.get("things.moon.radius")) == ("", "", 2.0)
+    told = presets.skipped([path])
+    assert len(told) == 2 and told[0].startswith(f"{path}, line 4: things.moon.image: left out: the file ")
+    assert told[0].endswith(f"; allowed without asking are files below {path.parent}")
+    assert presets.load([path], any_file=True).get("things.moon.image") and not presets.skipped([path], any_file=True)
+
+
+def test_a_picture_opens_no_file_outside_its_folder_unless_asked(tmp_path):
+    text = presets.picture_text(moon(image="/etc/moon.png"), 0.0, tmp_path)
+    png.write(tmp_path / "a.png", np.zeros((2, 2, 3), np.uint8), text)
+    assert presets.load([tmp_path / "a.png"]).get("things.moon.image") == ""
+    assert presets.load([tmp_path / "a.png"], any_file=True).get("things.moon.image") == "/etc/moon.png"
+
+
+def test_text_of_no_place_names_no_file_but_the_programs():
+    text = "[things.moon]\nkind = 'globe'\nimage = '{}'\n"
+    assert presets.parse(text.format("moon.png")).over(Scene()).get("things.moon.image") == ""
+    assert "allowed without asking are assets of the program" in presets.parse(text.format("moon.png")).refused(Scene())[0]
+    assert presets.parse(text.format("asset:moon.png")).over(Scene()).get("things.moon.image") == "asset:moon.png"
+
+
+def test_an_assets_name_is_written_as_it_is(preset_file, tmp_path):
+    scene = moon(image="asset:moon.png")
+    path = presets.save(scene, tmp_path / "mine.toml")
+    assert "image = \"asset:moon.png\"" in path.read_text(encoding="utf-8") and presets.load([path]) == scene
 
 
 def test_what_lies_below_a_presets_folder_is_written_relative_to_it(tmp_path):
@@ -326,7 +359,7 @@ def test_what_lies_below_a_presets_folder_is_written_relative_to_it(tmp_path):
     path = presets.save(scene, tmp_path / "mine.toml")
     text = path.read_text(encoding="utf-8")
     assert 'image = "pictures/moon.png"' in text and str(tmp_path.parent / "far.png") in text
-    assert presets.load([path]) == scene
+    assert presets.load([path], any_file=True) == scene
     assert str(tmp_path / "pictures" / "moon.png") in presets.dumps(scene), "text of no place has whole paths"
 
 
@@ -362,7 +395,7 @@ _scenes = st.dictionaries(_names, _globes | _cubes, max_size=3).map(
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(_scenes, st.booleans())
 def test_what_is_written_is_read_back_exactly(scene, full):
-    preset = presets.parse(presets.dumps(scene, full))
+    preset = replace(presets.parse(presets.dumps(scene, full)), any_file=True)
     assert preset.over(Scene()) == scene
     assert set(preset.values) == set(scene.keys()) or not full
 
@@ -372,7 +405,7 @@ def test_what_is_written_is_read_back_exactly(scene, full):
 def test_a_picture_carries_the_instances(tmp_path_factory, scene):
     path = tmp_path_factory.getbasetemp() / "instances.png"
     png.write(path, np.zeros((2, 3, 3), np.uint8), presets.picture_text(scene, 1.0, path.parent))
-    assert presets.from_png(path) == scene
+    assert presets.load([path], any_file=True) == scene
 
 
 _words = st.sampled_from(["kind", "radius", "radii", "path", "time", "globe", "moon", "caption", "image", "enabled"]) | st.text(max_size=4)

@@ -35,6 +35,8 @@ def _values(item):
         return st.booleans()
     if item.kind == "choice":
         return st.sampled_from(item.options)
+    if item.kind == "file":
+        return st.sampled_from(["", "asset:a" + item.suffixes[0]])
     if item.kind == "int":
         return st.integers(int(item.low), int(item.high))
     numbers = st.floats(item.low, item.high)

@@ -13,7 +13,8 @@ for each section of the scene::
     kind = "sphere"
 
 Presets are layered: physics, then look, then quality, or steps stated by hand instead, then single values; the later one wins. A picture saved by us is a
-preset too. Paths in a preset start at its own folder. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
+preset too. Paths in a preset start at its own folder, and files elsewhere are left out unless the caller says `any_file`: presets and pictures are
+passed on. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
 given and what is allowed; but a key that is not known, as a newer version's file may have, is left out, and `skipped` tells of it.
 """
 
@@ -106,7 +107,7 @@ def _find(name: str) -> tuple[Path, str]:
     raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in .toml or .png.")
 
 
-def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None) -> Scene:
+def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None, *, any_file: bool = False) -> Scene:
     """The scene that the presets say, each over the one before it, and `overrides` over all.
 
     Where nothing but looks, qualities and steps is named, they lie over `DEFAULT_PRESETS`.
@@ -115,27 +116,35 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
         names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``).
         overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``; lists as in TOML, paths from
             the working folder.
+        any_file: the presets may name files outside their own folders, too.
 
     Raises:
         PresetError: see `read`; or an override is wrong.
     """
-    wanted = [names_or_paths] if isinstance(names_or_paths, (str, Path)) else list(names_or_paths)
-    layers = [read(item) for item in wanted]
-    if _are_partial(layers):
-        layers = [read(item) for item in DEFAULT_PRESETS] + layers
     scene = Scene()
-    for layer in layers:
+    for layer in _layers(names_or_paths, any_file):
         scene = layer.over(scene)
     return _overridden(scene, overrides or {})
 
 
-def skipped(names_or_paths: Iterable[str | Path]) -> list[str]:
-    """What `load` leaves out of these presets because this version does not know it, a sentence each.
+def skipped(names_or_paths: Sequence[str | Path], *, any_file: bool = False) -> list[str]:
+    """What `load` leaves out of these presets because this version does not know it, or because it is a file elsewhere, a sentence each.
 
     Raises:
         PresetError: see `read`.
     """
-    return [sentence for item in names_or_paths for sentence in read(item).skipped]
+    found: list[str] = []
+    scene = Scene()
+    for layer in _layers(names_or_paths, any_file):
+        found += (*layer.skipped, *layer.refused(scene))
+        scene = layer.over(scene)
+    return found
+
+
+def _layers(names_or_paths: Sequence[str | Path] | str, any_file: bool) -> list[Preset]:
+    wanted = [names_or_paths] if isinstance(names_or_paths, (str, Path)) else list(names_or_paths)
+    layers = [read(item, any_file=any_file) for item in wanted]
+    return [read(item) for item in DEFAULT_PRESETS] + layers if _are_partial(layers) else layers
 
 
 def last_timed(names_or_paths: Iterable[str | Path]) -> Preset | None:
@@ -199,8 +208,8 @@ def from_png(path: str | Path) -> Scene:
     return read(Path(path)).over(Scene())
 
 
-def read(name_or_path: str | Path) -> Preset:
-    """The preset of that name, or in that ``.toml`` file, or carried by that ``.png``.
+def read(name_or_path: str | Path, *, any_file: bool = False) -> Preset:
+    """The preset of that name, or in that ``.toml`` file, or carried by that ``.png``; `any_file`: it may name files outside its own folder.
 
     Raises:
         PresetError: not found, not readable, not TOML, or a value that a scene cannot hold.
@@ -217,7 +226,7 @@ def read(name_or_path: str | Path) -> Preset:
     except ValueError as error:
         raise PresetError(str(error), source=source) from None
     preset = parse(text, source, path.absolute().parent)
-    return replace(preset, group=group or preset.group)
+    return replace(preset, group=group or preset.group, any_file=any_file)
 
 
 def _is_path(name_or_path: str | Path) -> bool:

@@ -54,7 +54,8 @@ class Preset:
             stand in the file.
         skipped: a sentence for each entry that this version does not know, as a newer one's file may have; the rest counts.
         source: what errors call it.
-        folder: where its relative paths start; None leaves them as they are.
+        folder: where its relative paths start, and below which all files that it names have to lie; None: it may name assets alone.
+        any_file: whether it may name files that lie elsewhere, too.
         text: the TOML it was made from.
     """
 
@@ -70,21 +71,44 @@ class Preset:
     skipped: tuple[str, ...] = ()
     source: str = "preset"
     folder: Path | None = None
+    any_file: bool = False
     text: str = field(default="", repr=False)
 
     def over(self, scene: Scene) -> Scene:
-        """`scene` with what this preset sets put in.
+        """`scene` with what this preset sets put in, but for files that it may not name: see `refused`.
 
         Raises:
             PresetError: it sets values of an instance that is not there, or that the instance's kind does not have or take.
         """
+        made = self._anchored_over(scene)
+        if self.any_file:
+            return made
+        return made.with_values({key: paths.kept_within(made.field(key), made.get(key), self.folder) for key in self.values})
+
+    def refused(self, scene: Scene) -> tuple[str, ...]:
+        """What `over` leaves out because it is a file outside the preset's own folder, a sentence each.
+
+        Raises:
+            PresetError: as `over`.
+        """
+        if self.any_file:
+            return ()
+        made = self._anchored_over(scene)
+        refused = [(key, path) for key in self.values for path in paths.outside(made.field(key), made.get(key), self.folder)]
+        allowed = f"files below {self.folder}" if self.folder else "assets of the program"
+        return tuple(str(self._error(key, f"left out: the file {path}; allowed without asking are {allowed}")) for key, path in refused)
+
+    def _anchored_over(self, scene: Scene) -> Scene:
         try:
             made = scene.with_values(self.values)
         except SceneError as error:
-            raise PresetError(error.message, key=error.key, source=self.source, line=_line_of(error.key, self.text, error.entry)) from None
+            raise self._error(error.key, error.message, error.entry) from None
         if self.folder is None:
             return made
         return made.with_values({key: paths.anchored(made.field(key), made.get(key), self.folder) for key in self.values})
+
+    def _error(self, key: str, message: str, entry: int = 0) -> PresetError:
+        return PresetError(message, key=key, source=self.source, line=_line_of(key, self.text, entry))
 
 
 def parse(text: str, source: str = "preset", folder: Path | None = None) -> Preset:

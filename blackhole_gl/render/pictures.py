@@ -1,0 +1,145 @@
+"""Picture files as textures: one for each picture that a sky, a layer or a ray model shows, and one array for those of all things and media."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import moderngl
+import numpy as np
+from PIL import Image
+
+from ..scene import Scene, met
+from ..scene.files import PICTURES
+from ..scene.plug_in import PlugIn
+from ..scene.schema import Field
+from . import picture_files
+from .picture_files import PictureFiles, Stamp
+
+ARRAY = "instance_pictures"
+"""Sampler of the pictures of things and media: a parameter of an instance is its picture's layer in it, −1 for none."""
+
+MOST_ASIDE = 4096
+"""Pixels along a side of a texture; larger pictures are reduced to that."""
+
+MOST_ARRAY_BYTES = 256 << 20
+"""Of all layers of the array; where there are so many pictures that they would take more, they share it as smaller ones."""
+
+_TEXEL_BYTES = 8
+
+_FILES = PictureFiles()  # of all contexts
+
+
+def is_picture(item: Field) -> bool:
+    """Whether `item` names picture files."""
+    return item.kind == "file" and set(item.suffixes) <= set(PICTURES)
+
+
+def layers(scene: Scene) -> dict[str, int]:
+    """The pictures that things and media of `scene` name → their layers in the array."""
+    return {value: layer for layer, (_, value) in enumerate(_named(scene))}
+
+
+def _named(scene: Scene) -> tuple[tuple[str, str], ...]:
+    """(key, value) of each picture that things and media name, each picture once, in their order."""
+    found: dict[str, str] = {}
+    for slot, section in (("thing", "things"), ("medium", "media")):
+        kinds = {kind.key: kind for kind in met.kinds(scene, slot)}
+        for name, instance in getattr(scene, section).items():
+            for item in kinds[instance.kind].parameters.values():
+                value = instance.values[item.key]
+                if is_picture(item) and isinstance(value, str) and value:
+                    found.setdefault(value, f"{section}.{name}.{item.key}")
+    return tuple((key, value) for value, key in found.items())
+
+
+class Pictures:
+    """The textures of one context. Each is made anew when its file or the choice of files changes, and only then.
+
+    Attributes:
+        made: how many textures have been made.
+    """
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self.made = 0
+        self._most_aside = min(MOST_ASIDE, ctx.info["GL_MAX_TEXTURE_SIZE"])
+        self._single: dict[str, tuple[Stamp | None, moderngl.Texture]] = {}
+        self._array: tuple[tuple[Stamp, ...], moderngl.TextureArray] | None = None
+
+    def of(self, plug_ins: Iterable[PlugIn], scene: Scene) -> dict[str, moderngl.Texture]:
+        """Sampler's name → texture of the pictures that parameters of `plug_ins` name, such as ``sky_picture_file``: light premultiplied by alpha, mipmapped;
+        where no file is named one texel of nothing.
+
+        Raises:
+            SceneError: a file cannot be used.
+        """
+        return {item.glsl_name: self._texture(item.key, scene) for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item)}
+
+    def of_instances(self, scene: Scene) -> dict[str, moderngl.TextureArray]:
+        """The array by its sampler's name; nothing where no thing and no medium names a picture.
+
+        Raises:
+            SceneError: a file cannot be used.
+        """
+        named = _named(scene)
+        if not named:
+            return {}
+        stamps = tuple(picture_files.stamp(key, value) for key, value in named)
+        if self._array is None or self._array[0] != stamps:
+            filled = self._filled_array([_FILES.read(key, stamp, self._most_aside) for (key, _), stamp in zip(named, stamps)])
+            if self._array is not None:
+                self._array[1].release()
+            self._array = stamps, filled
+        return {ARRAY: self._array[1]}
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for _, texture in self._single.values():
+            texture.release()
+        if self._array is not None:
+            self._array[1].release()
+        self._single, self._array = {}, None
+
+    def _texture(self, key: str, scene: Scene) -> moderngl.Texture:
+        value = scene.get(key)
+        stamp = picture_files.stamp(key, value) if isinstance(value, str) and value else None
+        kept = self._single.get(key)
+        if kept is not None and kept[0] == stamp:
+            return kept[1]
+        texels = np.zeros((1, 1, 4), np.float16) if stamp is None else _FILES.read(key, stamp, self._most_aside)
+        if kept is not None:
+            kept[1].release()
+        texture = self._ctx.texture((texels.shape[1], texels.shape[0]), 4, np.ascontiguousarray(texels), dtype="f2")
+        texture.repeat_x = texture.repeat_y = False
+        self._finish(texture)
+        self._single[key] = stamp, texture
+        return texture
+
+    def _filled_array(self, pictures: list[np.ndarray]) -> moderngl.TextureArray:
+        width, height = _layer_size(pictures)
+        data = b"".join(_resized(picture, (width, height)).tobytes() for picture in pictures)
+        texture = self._ctx.texture_array((width, height, len(pictures)), 4, data, dtype="f2")
+        texture.repeat_x = texture.repeat_y = False
+        self._finish(texture)
+        return texture
+
+    def _finish(self, texture: moderngl.Texture | moderngl.TextureArray) -> None:
+        texture.build_mipmaps()
+        texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        self.made += 1
+
+
+def _layer_size(pictures: list[np.ndarray]) -> tuple[int, int]:
+    """(width, height) of the layers: the largest of each, halved until all fit."""
+    width, height = max(picture.shape[1] for picture in pictures), max(picture.shape[0] for picture in pictures)
+    while width * height * len(pictures) * _TEXEL_BYTES > MOST_ARRAY_BYTES:
+        width, height = max(width // 2, 1), max(height // 2, 1)
+    return width, height
+
+
+def _resized(picture: np.ndarray, size: tuple[int, int]) -> np.ndarray:
+    """`picture` at `size` (width, height), float16; resampled in linear light, channel by channel, as Pillow has no float pictures of several."""
+    if (picture.shape[1], picture.shape[0]) == size:
+        return picture
+    channels = [Image.fromarray(np.ascontiguousarray(picture[..., k], np.float32)).resize(size, Image.Resampling.BILINEAR) for k in range(4)]
+    return np.stack([np.asarray(channel) for channel in channels], axis=-1).astype(np.float16)
