@@ -37,7 +37,7 @@ void main() {
         march_once(orbit, m);
         if (m.fate != UNRESOLVED) break;  // a second way out: docs/llvmpipe.md
     }
-    float part = asked.w - float(whole - 1);
+    float part = min(asked.w - float(whole - 1), march_end(orbit, m));
     State there = m.next;
     if (whole > 0 && part < 1.0) there = march_step(orbit, m.s, m.h * part);
     float drift = -1.0;

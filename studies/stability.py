@@ -56,7 +56,7 @@ def methods() -> list[Combination]:
     """Every combination that the catalogue lets through: models in its order, each model's default method first."""
     found: list[Combination] = []
     for model in catalogue.plug_ins("ray_model").values():
-        if not model.traits.charted:
+        if model.traits.field:
             continue
         if model.traits.kind == "closed":
             found += [Combination(model.key), *_variants(model)]

@@ -10,6 +10,7 @@ from functools import cache
 from imgui_bundle import ImVec4, hello_imgui, imgui
 
 from .. import plan
+from ..physics.space_time import is_field
 from ..scene import Scene, catalogue, fields, instances, presets, sections
 from ..scene.schema import Field
 from . import commands, scene_files, sought, theme, widgets
@@ -170,9 +171,12 @@ def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
 
 
 def _is_active(item: Field, scene: Scene) -> bool:
-    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of automatic exposure, and those of plug-ins that take part."""
+    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of a hole or a field, of automatic exposure, and those of plug-ins that take
+    part."""
     if item.key in ("camera.fov_deg", "camera.field_m"):
         return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
+    if item.key.startswith(("hole.", "rays.field_")):
+        return is_field(scene) != item.key.startswith("hole.")
     if item.key == "post.key_light":
         return scene.post.exposure_mode == "automatic"
     parts = item.key.split(".")

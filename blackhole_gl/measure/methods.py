@@ -100,11 +100,11 @@ def sensible(scene: Scene, whole: bool = True) -> list[Combination]:
 
     A model that is exact for the scene's hole is tried with every integrator (and its own step control) and every step control (and
     the best integrator that fits), or, unless `whole`, with the best of both; any other model has a floor that no integrator lowers,
-    and is tried once. A header with ``charted = false`` keeps a model out: one that is not about a hole.
+    and is tried once. Models that are fields are not about a hole.
     """
     found: dict[Combination, None] = {}
     for model in catalogue.plug_ins("ray_model").values():
-        if model.traits.charted:
+        if not model.traits.field:
             found |= dict.fromkeys(_methods_of(model, scene, whole))
     return list(found)
 

@@ -139,4 +139,4 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
 
 def _has_a_hole(scene: Scene) -> bool:
     model = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses
-    return scene.rays.lensing and (model is None or model.traits.charted)
+    return scene.rays.lensing and (model is None or not model.traits.field)

@@ -22,22 +22,24 @@ class SpaceTime:
         spin: a* that light's model, matter and its colours feel; 0 for a model without spin.
         observer_spin: a* of the metric that the observer sits in.
         horizon_spin: a* that horizon, photon orbits and innermost stable orbit are those of.
+        has_hole: whether there is one; in a field there is not.
     """
 
     kind: str
     spin: float
     observer_spin: float
     horizon_spin: float
+    has_hole: bool = True
 
     @cached_property
     def horizon_radius(self) -> float:
-        """r_+ in r_s."""
-        return float(relativity.horizon_radius(self.horizon_spin))
+        """r_+ in r_s; 0 without a hole."""
+        return float(relativity.horizon_radius(self.horizon_spin)) if self.has_hole else 0.0
 
     @cached_property
     def inner_horizon_radius(self) -> float:
         """r_- in r_s."""
-        return float(relativity.inner_horizon_radius(self.horizon_spin))
+        return float(relativity.inner_horizon_radius(self.horizon_spin)) if self.has_hole else 0.0
 
     @cached_property
     def prograde_photon_orbit(self) -> float:
@@ -86,10 +88,16 @@ def ray_model(scene: Scene) -> catalogue.PlugIn:
 def space_time(scene: Scene) -> SpaceTime:
     """The space-time of `scene`'s ray model."""
     traits = ray_model(scene).traits
-    return _space_time(traits.space_time, traits.spins, scene.hole.spin)
+    return _space_time(traits.space_time, traits.spins, scene.hole.spin, not is_field(scene))
+
+
+def is_field(scene: Scene) -> bool:
+    """Whether `scene` is of a field and not of a hole, which with lensing off is still not there."""
+    known = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses: among those of a hole
+    return known is not None and known.traits.field
 
 
 @lru_cache(maxsize=256)
-def _space_time(kind: str, spins: bool, hole_spin: float) -> SpaceTime:
+def _space_time(kind: str, spins: bool, hole_spin: float, has_hole: bool) -> SpaceTime:
     spin = hole_spin if spins else 0.0
-    return SpaceTime(kind, spin, observer_spin=spin if kind == "kerr" else 0.0, horizon_spin=0.0 if kind == "schwarzschild" else spin)
+    return SpaceTime(kind, spin, observer_spin=spin if kind == "kerr" else 0.0, horizon_spin=0.0 if kind == "schwarzschild" else spin, has_hole=has_hole)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ..physics.space_time import ray_model
+from ..physics.space_time import is_field, ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
 from ..scene.schema import number_of
@@ -252,6 +252,8 @@ def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
 
 def _not_measured(scene: Scene) -> str:
     """Why the chart says nothing of `scene`; empty when it does."""
+    if is_field(scene):
+        return "a field, of which nothing was measured: plain steps"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
     if not measurements():

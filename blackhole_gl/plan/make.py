@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-from ..physics.space_time import SpaceTime, ray_model, space_time
+from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue, met
 from ..scene.catalogue import PlugIn
 from . import choice
@@ -74,7 +74,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         meetings=_meetings(scene),
         reach=reach,
         refine_px=refine_px(scene) if refine else 0.0,
-        frame=MERIDIAN if met.is_empty(scene) else WORLD,
+        frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) else WORLD,
         reasons=tuple(reasons),
         warnings=(*_why_longer(stretch, max_steps), *_why_coarse(scene, chosen)),
     )
@@ -84,7 +84,7 @@ def _why_longer(stretch: float, max_steps: int) -> tuple[str, ...]:
     """What to say of steps that are `stretch` times as long as the scene asks for."""
     if stretch <= 1.0:
         return ()
-    return (f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene: what is near the hole may be false",)
+    return (f"steps are {stretch:.2f} times longer than asked, so that {max_steps} of them cross the scene: where light bends most it may be false",)
 
 
 def _why_coarse(scene: Scene, made: choice.Choice) -> tuple[str, ...]:
@@ -204,7 +204,7 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, st
 
 
 def _visible_orders(scene: Scene) -> int:
-    """Orders of crossings that can be seen: 0 without a disk; of the others, those whose ring is not too thin for one grey level.
+    """Orders of crossings that can be seen: 0 without a disk; round a hole, those whose ring is not too thin for one grey level.
 
     Each half turn thins the ring by e^{−π} in Schwarzschild (Ohanian 1987), the first being about as wide as the shadow; a spinning
     hole's rings are wider on the receding side, for which a factor of 8 is left.
@@ -213,6 +213,8 @@ def _visible_orders(scene: Scene) -> int:
         return 0
     if not scene.rays.lensing:
         return 1
+    if is_field(scene):
+        return scene.rays.orders
     camera = scene.camera
     half_height = 0.5 * camera.field_m / 2.0 if math.isinf(camera.distance) else camera.distance * math.tan(math.radians(0.5 * camera.fov_deg))
     shadow_px = 0.5 * choice.PICTURE_HEIGHT * 2.6 * scene.hole.gravity_strength / half_height
@@ -233,6 +235,8 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     if control.traits.adapts:
         return 0.0
     shortest = control.traits.shortest
+    if model.traits.field:
+        return scene.rays.field_way / (scene.rays.step_length * shortest)
     if model.traits.marches_in == "mino":
         return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
     bound = max(_march_bound(scene, model), _BEYOND * met.reach(scene))

@@ -42,7 +42,7 @@ class Plan:
         reach: radius in r_s beyond which there is none of them.
         refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
         frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
-            which turns about the axis keeps its hits, where everything that rays meet is symmetric about the axis; else the ``world``.
+            which turns about the axis keeps its hits, where all that bends rays and that they meet is symmetric about the axis; else the ``world``.
         reasons: why, a sentence each, for people.
         warnings: what turns out worse than the scene asks, a sentence each.
     """

@@ -77,12 +77,16 @@ INFINITY = Sphere(math.inf)
 class Watch:
     """The monitor of a march: the fates of its rays and their crossings of `planes`, at most `orders` of each.
 
-    A step that ends in the hole is looked at as far as `innermost` (r in r_s), since Boyer-Lindquist's azimuth has no limit at the horizon.
+    Rays escape at `outer`. A step that ends in the hole is looked at as far as `inner`, since Boyer-Lindquist's azimuth has no limit at the horizon; without
+    one, as where there is no hole, it is not looked at.
 
     Attributes: fate (N,) int8, direction (N, 3), crossings (N, planes, orders), as in `hits.Traced`.
     """
 
-    def __init__(self, system: RaySystem, state: Float[Array, "rows N"], planes: Sequence[Plane], orders: int, innermost: float):
+    swings_about_equator = True
+    """Whether theta does, as round a hole, so that no ray comes near the equatorial plane and turns back."""
+
+    def __init__(self, system: RaySystem, state: Float[Array, "rows N"], planes: Sequence[Plane], orders: int, outer: Event, inner: Event | None):
         count = state.shape[1]
         self.fate = np.full(count, UNRESOLVED, dtype=np.int8)
         self.direction = np.zeros((count, 3))
@@ -90,7 +94,8 @@ class Watch:
         self._system = system
         self._planes = planes
         self._orders = orders
-        self._innermost = Sphere(max(innermost, system.capture_radius))
+        self._outer = outer
+        self._inner = inner
         self._travelled = np.zeros(count)
         self._found = np.zeros((len(planes), count), dtype=np.int64)
         # A camera in the plane (side 0) takes the side its ray leaves to; its own place is no crossing.
@@ -101,20 +106,27 @@ class Watch:
     def __call__(
         self, rays: Int[Array, " k"], before: Float[Array, "rows k"], after: Float[Array, "rows k"], step: Float[Array, " k"]
     ) -> Bool[Array, " k"]:
-        escaped = self._value(INFINITY)(after) <= 0.0
+        escaped = self._value(self._outer)(after) <= 0.0
         captured = ~escaped & self._system.captured(after)
         self.fate[rays[escaped]], self.fate[rays[captured]] = ESCAPED, CAPTURED
         last, end = after.copy(), step.copy()
-        for part, event in ((escaped, INFINITY), (captured & (self._value(self._innermost)(before) < 0.0), self._innermost)):
+        ends = [(escaped, self._outer)]
+        if self._inner is not None:
+            ends.append((captured & (self._value(self._inner)(before) < 0.0), self._inner))
+        for part, event in ends:
             if part.any():
                 end[part], last[:, part] = self._locate(event, before[:, part], after[:, part], step[part])
-        n = self._system.place(last[:, escaped])[1].T
+        n = self._heading(rays[escaped], last[:, escaped])
         self.direction[rays[escaped]] = n / np.linalg.norm(n, axis=1, keepdims=True)
         watched = ~captured | (end < step)
         for index, plane in enumerate(self._planes):
             self._look(index, plane, rays[watched], before[:, watched], last[:, watched], end[watched])
         self._travelled[rays] += step
         return escaped | captured
+
+    def _heading(self, rays: Int[Array, " k"], state: Float[Array, "rows k"]) -> Float[Array, "k 3"]:
+        """The asymptotic directions, of any length, of `rays` that have come to `outer`."""
+        return self._system.place(state)[1].T
 
     def _value(self, event: Event) -> Callable[[Array], Array]:
         return lambda state: event.value(*self._system.place(state))
@@ -125,7 +137,7 @@ class Watch:
     def _look(self, index: int, plane: Plane, rays: Array, before: Array, after: Array, step: Array) -> None:
         """One plane in one step: the step whole, or in two pieces where the ray comes near the plane and goes away again within it."""
         returning = np.zeros(rays.size, dtype=bool)
-        if not plane.equatorial:  # theta swings about the equator itself: there a ray that nears it goes through
+        if not (plane.equatorial and self.swings_about_equator):  # there a ray that nears it goes through
             value, rate = self._value(plane), rate_along(self._system.rhs, self._value(plane))
             returning = (value(before) * rate(before, step) < 0.0) & (value(after) * rate(after, step) > 0.0) & (value(before) * value(after) > 0.0)
         whole = ~returning

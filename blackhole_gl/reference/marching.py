@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..shapes import Float
-from .events import Plane, RaySystem, Watch
+from .events import INFINITY, Plane, RaySystem, Sphere, Watch
 from .hits import Traced
 from .integrator import System, march, rate_along
 from .registry import View
@@ -24,7 +24,8 @@ def follow(
 ) -> Traced:
     """Marches the rays of `view` from `state` to their fate; `energy` and `l_z` are those of the photons, as in `hits.Traced`."""
     planes = [Plane(normal) for normal in view.planes]
-    watch = Watch(system, state, planes, view.orders, INNERMOST_CROSSING * view.horizon)
+    inner = Sphere(max(INNERMOST_CROSSING * view.horizon, system.capture_radius))
+    watch = Watch(system, state, planes, view.orders, INFINITY, inner)
     driven: System = system if all(plane.equatorial for plane in planes) else _Unhurried(system, min(view.horizon, system.capture_radius))
     with np.errstate(all="ignore"):
         _, steps = march(driven, state, 0.05 * driven.longest_step(state), watch, tolerance=view.tolerance, max_steps=_MAX_STEPS)

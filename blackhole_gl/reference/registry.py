@@ -34,7 +34,7 @@ class View:
         place: the camera's place, r in r_s.
         spin: a*; 0 where the twin says that it has none.
         observer: "static" or "zamo", as used.
-        horizon: r in r_s of the metric's horizon; of Kerr's, with this spin, where a model has no such metric.
+        horizon: r in r_s of the metric's horizon; of Kerr's, with this spin, where a model has no such metric; 0 where there is no hole.
         planes: (P, 3) unit normals of the planes through the hole whose crossings are asked for; the equatorial one first.
         orders: crossings kept of each plane.
         tolerance: error allowed per step of the integrator.
@@ -72,12 +72,14 @@ class Twin:
         trace: gives what the rays of a `View` meet, from it and from parameters by name.
         metric: one of `METRICS`, in which its photons' momenta are null; None for a model whose rays are no light in any metric.
         spins: whether the hole's spin means anything to it.
+        has_hole: whether there is one; in a field there is not.
         parameters: what `trace` calls its parameters → the scene keys that hold their values.
     """
 
     trace: Callable[..., Traced]
     metric: str | None
     spins: bool = True
+    has_hole: bool = True
     parameters: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -85,7 +87,9 @@ _Trace = Callable[..., Traced]
 _TWINS: dict[str, Twin] = {}
 
 
-def twin(*models: str, metric: str | None, spins: bool = True, parameters: Mapping[str, str] | None = None) -> Callable[[_Trace], _Trace]:
+def twin(
+    *models: str, metric: str | None, spins: bool = True, has_hole: bool = True, parameters: Mapping[str, str] | None = None
+) -> Callable[[_Trace], _Trace]:
     """Makes the decorated function the twin of `models`; see `Twin` for what it declares.
 
     Raises:
@@ -98,7 +102,7 @@ def twin(*models: str, metric: str | None, spins: bool = True, parameters: Mappi
         for model in models:
             if model in _TWINS:
                 raise ValueError(f"ray model {model!r} has two twins: {_TWINS[model].trace.__module__} and {trace.__module__}")
-            _TWINS[model] = Twin(trace, metric, spins, dict(parameters or {}))
+            _TWINS[model] = Twin(trace, metric, spins, has_hole, dict(parameters or {}))
         return trace
 
     return register

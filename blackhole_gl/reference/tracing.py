@@ -65,7 +65,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
 def _view(twin: Twin, spin: float, place: Place, observer: str, directions: ArrayLike | None, screen: ArrayLike | None,
           planes: Sequence[Sequence[float]], orders: int, tolerance: float) -> View:
     spin = spin if twin.spins else 0.0
-    horizon = 1.0 if twin.metric == "schwarzschild" else float(relativity.horizon_radius(spin))
+    horizon = 0.0 if not twin.has_hole else 1.0 if twin.metric == "schwarzschild" else float(relativity.horizon_radius(spin))
     if place.r <= horizon:
         raise ValueError(f"the camera at r = {place.r} r_s lies within the horizon at {horizon} r_s")
     view = View(_rays(place, directions, screen), place, spin, observer, horizon, _normals(planes), orders, max(tolerance, _FINEST_TOLERANCE))

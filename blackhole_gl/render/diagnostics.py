@@ -8,6 +8,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import Fate
+from ..physics.space_time import is_field
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene, presets
@@ -18,6 +19,9 @@ from .temperatures import TemperatureProfile
 from .views import Ends, Scale, View, ends_of, linear_light, view_of
 
 _COLOURS = 256
+
+# The tolerance is that below which rounding is what is measured.
+_EXACT_FIELD = {"rays.integrator": "dopri5", "rays.step_control": "embedded", "rays.embedded.tolerance": 1e-6}
 
 # Post that leaves colours as they are.
 _AS_IT_IS = {"post.exposure": 0.0, "post.bloom": False, "post.tone_map": "linear", "post.gamma": 1.0, "post.dither": False}
@@ -38,9 +42,12 @@ def prepared(plan: Plan) -> Plan:
 
 
 def most_accurate(drawn: Plan) -> Plan:
-    """The scene of `drawn` by the exact model of its hole at the steps of the preset ``reference``; crossings as in `drawn`."""
-    steps = presets.read("reference").values
-    exact = make_plan(drawn.scene.with_values({**steps, "rays.model": "auto", "rays.lensing": True}))
+    """The scene of `drawn` by the exact model of its hole at the steps of the preset ``reference``; crossings as in `drawn`.
+
+    A field is its own model, whose steps are chosen by their error: where it is strong is the field's to say.
+    """
+    own = _EXACT_FIELD if is_field(drawn.scene) else {"rays.model": "auto"}
+    exact = make_plan(drawn.scene.with_values({**presets.read("reference").values, **own, "rays.lensing": True}))
     return replace(exact, orders=drawn.orders)
 
 

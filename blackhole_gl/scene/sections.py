@@ -98,6 +98,12 @@ class Rays:
         "0: from the tolerance.",
     )
     max_steps: int = number(8192, 8, 30000, "", "No ray takes more steps. Steps are lengthened where fewer could not cross the scene.")
+    field_radius: float = number(
+        10.0, 0.5, 1000.0, "r_s", "Radius of the sphere about the origin within which a field bends rays; beyond it they run straight.",
+    )
+    field_way: float = number(
+        400.0, 1.0, 1e5, "r_s", "Way within a field after which a ray is held there for good: it is black. Rays that a field lets out end in the sky.",
+    )
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
     at_rest: int = number(
         17, 1, 17, "", "Rays a pixel that a picture takes where nothing moves, one more a frame; an even number shows as the odd one below it.",

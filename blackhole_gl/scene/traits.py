@@ -10,10 +10,10 @@ from typing import Annotated, Literal
 
 from .headers import Between
 
-Time = Literal["cartesian", "mino"]
-"""What a differential model's step is a step of: σ of Cartesian space (r_s), or Mino time (an angle)."""
+Time = Literal["cartesian", "mino", "field"]
+"""What a differential model's step is a step of: σ of Cartesian space (r_s) round a hole, Mino time (an angle), or σ in a field without a hole (r_s)."""
 
-ALL_TIMES: tuple[Time, ...] = ("cartesian", "mino")
+ALL_TIMES: tuple[Time, ...] = ("cartesian", "mino", "field")
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class RayModelTraits:
         tells_paths: whether a closed model also says where in space its rays run, so that they can meet things; marched ones do.
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
-        charted: whether the chart and the stability page measure it; not for what is not about a hole.
+        field: whether it bends rays in flat space by a field within a sphere, ``rays.field_radius``: then there is no hole.
     """
 
     kind: Literal["closed", "differential"]
@@ -42,7 +42,7 @@ class RayModelTraits:
     tells_paths: bool = False
     second_order: bool = False
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
-    charted: bool = True
+    field: bool = False
 
     @property
     def meets_things(self) -> bool:

@@ -4,12 +4,12 @@
 //     struct Orbit                                constants of this ray
 //     struct State                                what the integrator moves
 //     Orbit ray_orbit(RayStart)
-//     State ray_init(RayStart, Orbit, inout Hits) may add crossings that lie before the march
+//     State ray_init(RayStart, Orbit, inout Hits) may add crossings that lie before the march, and set hits.fate to MET where the ray ends there
 //     State ray_rhs(Orbit, State)                 the State's rate
 //     State state_step(State s, float h, State k) s + h k
 //     int   ray_fate(Orbit, State)                UNRESOLVED while under way
 //     float ray_end(Orbit, State a, State b, float h)  fraction 0…1 of the last step at which the ray ends
-//     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity
+//     void  ray_finish(Orbit, State, inout Hits)  from the end of the march to infinity; may set hits.fate to MET
 //     float ray_height(State), ray_height_rate(State)  of the sign of z
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
 //     Path  ray_path(Orbit, State)                where it is in space, with rates (common/curve.glsl)
@@ -23,6 +23,7 @@
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
 // RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift and no state_push.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
+// RAY_MEETS_BEYOND: ray_init and ray_finish also meet what lies before and after the march, and begin at the camera.
 // RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its
 // size; −1 for none. For the view of conserved quantities only.
 //
@@ -211,14 +212,16 @@ Hits trace_ray(RayStart start) {
     March m = march_start(orbit, ray_init(start, orbit, hits));
 #if MEETINGS
     vec4 place = path_place(ray_path(orbit, m.s));
+#ifndef RAY_MEETS_BEYOND
     if (place.w > 0.0) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.s), true, hits);
+#endif
     // From event to event, whatever it is.
-    bool met = false;
+    bool met = hits.fate == MET;
     float end;
     do {
         march_on(orbit, ORDERS > 0, m);
         end = march_end(orbit, m);
-        if (march_pauses(m)) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, hits);
+        if (march_pauses(m) && !met) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
     place = path_place(ray_path(orbit, m.next));

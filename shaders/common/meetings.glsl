@@ -125,13 +125,12 @@ void meet_at_an_end(vec3 x, Momentum momentum, bool begins, inout Hits hits) {
 
 // All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
 // `point`. Returns whether the ray ends on something opaque.
-bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
+bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
     // From (x, 1) to infinity in the direction v is one straight step between homogeneous places: s = size t/(1 − t).
     float size = max(length(x), 1.0);
     vec4 a = vec4(x, 1.0), b = vec4(size * v, 0.0);
     Curve line = Curve(Path(a, b - a, vec2(0.0)), Path(b, b - a, vec2(0.0)), 1.0);
     float from = 0.0, to = s_end < 1e29 ? s_end / (size + s_end) : 1.0;
-    meet_at_an_end(x, momentum_at(x, v), true, hits);
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
         Found found = next_meeting(line, from, to);
@@ -141,15 +140,20 @@ bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, ino
             add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
             crosses = false;
         }
-        if (none) {
-            if (s_end < 1e29) meet_at_an_end(x + s_end * v, momentum_at(x + s_end * v, v), false, hits);
-            return false;
-        }
+        if (none) return false;
         vec3 before = curve_point(line, found.before, ignored);
         bool enters = distance_to(found.kind, found.index, before) >= 0.0;
         add_meeting(hits, found.kind, found.index, enters, y, momentum_at(y, v), is_opaque(found.kind));
         if (is_opaque(found.kind)) return true;
         from = found.after;
     }
+    return false;
+}
+
+// The same on the whole way of a ray: it may begin and end inside a medium.
+bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
+    meet_at_an_end(x, momentum_at(x, v), true, hits);
+    if (meet_along_line(x, v, s_end, s_crossing, point, hits)) return true;
+    if (s_end < 1e29) meet_at_an_end(x + s_end * v, momentum_at(x + s_end * v, v), false, hits);
     return false;
 }

@@ -5,6 +5,7 @@ source = "an orbital-plane renderer (docs/sources.md)"
 slot = "step_control"
 rank = 4
 shortest = 0.4  # of the plain step, on a ray's whole way
+fits = ["cartesian", "mino"]
 
 [parameters.bend]
 default = 1.0

@@ -127,7 +127,8 @@ def test_combinations_that_fit_compile_and_give_every_ray_a_fate(renderer: Rende
         renderer.render(SCENE.with_values(changes), 0.0, (24, 14))
         hits = renderer.hits()
         assert np.count_nonzero(hits.fate == 0) == 0, (integrator, control)
-        assert np.all(np.isfinite(hits.direction)) and np.any(hits.fate == 1) and np.any(hits.fate == 2), (integrator, control)
+        assert np.all(np.isfinite(hits.direction)) and np.any(hits.fate == 1), (integrator, control)
+        assert np.any(hits.fate == 2) or catalogue.plug_ins("ray_model")[model].traits.field, (integrator, control)
 
 
 @pytest.mark.parametrize("key", [key for key, item in fields().items() if item.kind in ("switch", "choice")])

@@ -14,7 +14,7 @@ from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 
 MARCHED = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.kind == "differential"]
-HOLES = [key for key in MARCHED if catalogue.plug_ins("ray_model")[key].traits.charted]
+HOLES = [key for key in MARCHED if not catalogue.plug_ins("ray_model")[key].traits.field]
 
 
 def test_what_does_not_fit_and_why() -> None:

@@ -103,7 +103,7 @@ def test_a_marched_models_own_step_control_fits_it():
 def test_traits_are_what_the_shipped_headers_say():
     drag, flat = (catalogue.plug_ins("ray_model")[key].traits for key in ("post_newtonian_drag", "flat"))
     curvature = catalogue.plug_ins("step_control")["curvature"].traits
-    assert (drag.march_bound, drag.spins, drag.exact, drag.second_order, drag.charted) == (120.0, True, False, False, True)
+    assert (drag.march_bound, drag.spins, drag.exact, drag.second_order, drag.field) == (120.0, True, False, False, False)
     assert (curvature.shortest, curvature.adapts, curvature.fits) == (0.4, False, ("cartesian", "mino"))
     assert (flat.marches_in, flat.step_control, flat.march_bound) == (None, None, None)
     assert catalogue.plug_ins("integrator")["dopri5"].traits == IntegratorTraits(order=5, evaluations=6, pair_evaluations=7)

@@ -1,0 +1,135 @@
+"""Rays in fields: the shader against the float64 twins, what they meet inside and outside the sphere, and what becomes of them. `-rP` shows the figures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from blackhole_gl import listed_rays
+from blackhole_gl.glsl.declared import Fate
+from blackhole_gl.plan import plan
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import Scene, catalogue, presets
+
+FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
+RADIUS = 10.0  # r_s, of the sphere
+
+WITHIN = 1e-4  # of place (over the sphere's radius) and direction at exit, at 99 % of the rays
+
+# r in r_s and inclination: far and near, inside the sphere, in the disk's plane and over it; parallel rays.
+CAMERAS = [(25.0, 80.0), (4.0, 40.0), (300.0, 17.0), (12.0, 90.0), (8.0, 0.0), (math.inf, 70.0)]
+
+# What the shipped fields are beside as they come.
+VARIANTS = [
+    ("potential", {"law": "yukawa", "x": 2.0}),
+    ("potential", {"law": "compact", "strength": 0.05}),
+    ("potential", {"strength": -0.5, "z": 1.0}),
+    ("refraction", {"medium": "mirage", "size": 1.0}),
+    ("refraction", {"medium": "luneburg", "size": 10.0}),
+    ("refraction", {"medium": "fish_eye", "size": 10.0}),
+    ("refraction", {"medium": "linear", "strength": 0.05}),
+]
+
+
+def scene_of(model: str, distance: float = 25.0, inclination: float = 80.0, **changes) -> Scene:
+    values = {"rays.model": model, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.azimuth_deg": 25.0}
+    values |= {"rays.integrator": "rk4", "rays.step_control": "fixed", "rays.step_length": 0.1, "rays.max_steps": 20000}  # shorter steps add rounding
+    return presets.load(["kerr"], values | {key.replace("__", "."): value for key, value in changes.items()})
+
+
+def rays_of(distance: float, count: int, seed: int) -> np.ndarray:
+    """(count, 2) rays that come into the sphere, and some that pass it by."""
+    rng = np.random.default_rng(seed)
+    turn = rng.uniform(0.0, 2.0 * math.pi, count)
+    if math.isinf(distance):
+        b = 2.2 * RADIUS * np.sqrt(rng.uniform(0.0, 1.0, count))  # M
+        return np.stack([b * np.cos(turn), b * np.sin(turn)], axis=-1)
+    widest = 1.1 * math.asin(RADIUS / distance) if distance > RADIUS else math.pi
+    return np.stack([np.arccos(rng.uniform(math.cos(widest), 1.0, count)), turn], axis=-1)
+
+
+@pytest.mark.parametrize("distance, inclination", CAMERAS[:2])
+@pytest.mark.parametrize("model", FIELDS)
+def test_listed_rays_against_the_twin(renderer: Renderer, model: str, distance: float, inclination: float) -> None:
+    agree(renderer, scene_of(model, distance, inclination), 200)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("distance, inclination", CAMERAS)
+@pytest.mark.parametrize("model, values", [*((model, {}) for model in FIELDS), *VARIANTS])
+def test_a_thousand_rays_against_the_twin(renderer: Renderer, model: str, values: dict, distance: float, inclination: float) -> None:
+    agree(renderer, scene_of(model, distance, inclination, **{f"rays__{model}__{name}": value for name, value in values.items()}), 1000)
+
+
+def agree(renderer: Renderer, scene: Scene, count: int) -> None:
+    """Whether shader and twin agree on `count` rays of `scene`."""
+    model, distance, inclination = scene.rays.model, scene.camera.distance, scene.camera.inclination_deg
+    rays = rays_of(distance, count, seed=7)
+    found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+    # A ray that only just leaves the sphere, or is only just held, may do the other.
+    same = found.fate == twin.fate
+    assert np.mean(~same) <= 0.01
+    escaped = same & (twin.fate == Fate.ESCAPED)
+    off = np.linalg.norm(found.direction - twin.direction, axis=1)[escaped]
+    crosses = ~np.isnan(twin.crossing_r[escaped])
+    assert np.mean(np.isnan(found.crossing_r[escaped]) == crosses) <= 0.005  # of crossings: where a way runs along the plane
+    both = crosses & ~np.isnan(found.crossing_r[escaped]) & (twin.crossing_r[escaped] < 20.0)  # r_s: within the largest disk
+    apart = np.abs(found.crossing_r[escaped] * np.exp(1j * found.crossing_phi[escaped]) - twin.crossing_r[escaped] * np.exp(1j * twin.crossing_phi[escaped]))
+    off_99, apart_99 = np.quantile(off, 0.99), np.quantile(apart[both], 0.99)
+    print(f"{model}, r = {distance:g}, i = {inclination:g}°: direction 99 % {off_99:.1e} rad, crossing 99 % {apart_99:.1e} r_s")
+    assert off_99 <= WITHIN and apart_99 <= WITHIN * RADIUS
+
+
+@pytest.mark.parametrize("model", FIELDS)
+def test_straight_rays_without_lensing_meet_no_ball(renderer: Renderer, model: str) -> None:
+    scene = scene_of(model, rays__lensing=False)
+    assert plan(scene).model.key == "flat"
+    found = listed_rays.trace_by_shader(renderer, scene, np.array([[0.0, 0.0], [0.01, 1.0]]))
+    assert np.all(found.fate == Fate.ESCAPED)
+
+
+def test_a_field_of_no_strength_leaves_rays_straight(renderer: Renderer) -> None:
+    rays = rays_of(25.0, 100, seed=1)
+    found = listed_rays.trace_by_shader(renderer, scene_of("lorenz", rays__lorenz__strength=0.0), rays)
+    straight = listed_rays.trace_by_shader(renderer, scene_of("lorenz", rays__lensing=False), rays)
+    np.testing.assert_allclose(found.direction, straight.direction, atol=1e-6)  # float32
+    np.testing.assert_allclose(found.crossing_r, straight.crossing_r, rtol=2e-5)  # over 200 steps
+
+
+def test_a_ray_that_stays_too_long_is_held(renderer: Renderer) -> None:
+    rays = rays_of(4.0, 100, seed=2)
+    for way in (1.0, 5.0):
+        scene = scene_of("lorenz", 4.0, rays__field_way=way)
+        found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+        assert np.mean(found.fate != twin.fate) <= 0.01 and np.all(found.fate != Fate.UNRESOLVED)  # a step's length decides
+        assert np.any(found.fate == Fate.CAPTURED)
+
+
+def test_steps_reach_to_where_a_ray_is_held() -> None:
+    made = plan(scene_of("lorenz", rays__max_steps=1000))
+    assert made.step_length * made.max_steps == pytest.approx(made.scene.rays.field_way) and made.warnings
+
+
+def test_a_field_has_no_hole() -> None:
+    for model in FIELDS:
+        where = plan(scene_of(model)).space_time
+        assert not where.has_hole and where.horizon_radius == 0.0 and where.kind == "flat"
+
+
+# Where the ring lies: before the sphere as the camera sees it, within, and behind it.
+@pytest.mark.parametrize("inner, outer", [(12.0, 18.0), (4.0, 8.0)])
+def test_things_are_met_inside_and_outside_the_sphere_and_hide_the_disk(renderer: Renderer, inner: float, outer: float) -> None:
+    """A ring in the plane z = 0 is met exactly where the disk's plane is crossed."""
+    scene = scene_of("lorenz", 25.0, 70.0)
+    ring = {"things.ring.kind": "annulus", "things.ring.inner_radius": inner, "things.ring.outer_radius": outer, "things.ring.tilt_deg": 0.0}
+    renderer.render(scene.with_values(ring | {"disk.enabled": False}), 0.0, (64, 36))
+    met = renderer.hits()
+    renderer.render(scene, 0.0, (64, 36))
+    plain = renderer.hits()
+    r = np.hypot(plain.crossing[..., 0], plain.crossing[..., 1])
+    on_ring = np.any((r > 1.01 * inner) & (r < 0.99 * outer), axis=-1)
+    off_ring = ~np.any((r > 0.99 * inner) & (r < 1.01 * outer), axis=-1)
+    assert np.count_nonzero(on_ring) > 50
+    assert np.all(met.fate[on_ring] == Fate.MET) and np.all(met.fate[off_ring] == plain.fate[off_ring])
