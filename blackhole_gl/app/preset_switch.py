@@ -15,6 +15,8 @@ PICKERS: Mapping[str, tuple[str, ...]] = {"Physics": ("physics",), "Look": ("loo
 
 LAYERED = tuple(group for groups in PICKERS.values() for group in groups)
 WHOLE = ("scene", presets.USER_GROUP)
+_BASE = "scene"
+"""A look or a quality picked over one of these lies over it; physics picked starts anew, without what it said."""
 
 DEFAULT_QUALITY = {"quality": "automatic"}
 """What a scene has that says nothing of quality."""
@@ -46,7 +48,7 @@ def pick(state: WindowState, group: str, name: str) -> None:
     """Puts the preset `name` of `group` into the scene.
 
     What the new preset sets is set, but for what layers above it set too; what only its forerunner in the picker had set goes back to what the
-    other layers say; all else stays. A preset of a whole scene replaces everything.
+    other layers say; all else stays. A preset of a whole scene replaces everything. A look or a quality lies over it; physics takes its place.
     """
     any_file = files_outside.allowed(state, name)
     try:
@@ -55,9 +57,9 @@ def pick(state: WindowState, group: str, name: str) -> None:
             scene = home = presets.load([name], any_file=any_file)
             chosen = chosen_among([name])
         else:
-            rivals = next(groups for groups in PICKERS.values() if group in groups)
+            rivals = next(groups for groups in PICKERS.values() if group in groups) + ((_BASE,) if group == "physics" else ())
             old = [state.chosen[rival] for rival in rivals if rival in state.chosen]
-            chosen = {key: value for key, value in state.chosen.items() if key in LAYERED and key not in rivals} | {group: name}
+            chosen = {key: value for key, value in state.chosen.items() if key in (_BASE, *LAYERED) and key not in rivals} | {group: name}
             scene, home = (_laid(preset, old, chosen, before) for before in (state.scene, state.home))
         refused = preset.refused(scene)
     except presets.SceneError as error:
@@ -70,10 +72,14 @@ def pick(state: WindowState, group: str, name: str) -> None:
 
 
 def left(scene: Scene, in_force: Mapping[str, presets.Preset]) -> dict[str, tuple[str, ...]]:
-    """Group → the keys in which `scene` is not what the preset in force there says; a preset of a whole scene says everything."""
+    """Group → the keys in which `scene` is not what the preset in force there says; a preset of a whole scene says everything that none over it says."""
     laid = [group for group in LAYERED if group in in_force]
     found = {group: presets.departures(scene, [in_force[name] for name in laid], place) for place, group in enumerate(laid)}
-    return found | {group: presets.differing(scene, in_force[group].over(Scene())) for group in WHOLE if group in in_force}
+    over = {key for group in laid for key in in_force[group].values}
+    whole = {group: presets.differing(scene, in_force[group].over(Scene())) for group in WHOLE if group in in_force}
+    if _BASE in whole:  # one of the user's was saved with all that lies over it
+        whole[_BASE] = tuple(key for key in whole[_BASE] if key not in over)
+    return found | whole
 
 
 def remark(keys: Sequence[str]) -> str:
@@ -85,7 +91,7 @@ def remark(keys: Sequence[str]) -> str:
 
 def layers(chosen: Mapping[str, str]) -> list[str]:
     """The names among `chosen` of presets that lie over each other, lowest first."""
-    return [chosen[group] for group in LAYERED if group in chosen]
+    return [chosen[group] for group in (_BASE, *LAYERED) if group in chosen]
 
 
 def _laid(preset: presets.Preset, old: Sequence[str], chosen: Mapping[str, str], scene: Scene) -> Scene:

@@ -148,6 +148,27 @@ def test_a_whole_scene_replaces_all(state):
     assert state.chosen == {"scene": "luminet_1979", "quality": "automatic"}
 
 
+def test_physics_picked_leaves_nothing_of_a_whole_scene(state):
+    state.change({"post.exposure": 2.0})
+    preset_switch.pick(state, "scene", "luminet_1979")
+    preset_switch.pick(state, "look", "particle_storm")
+    preset_switch.pick(state, "physics", "kerr")
+    assert state.chosen == {"physics": "kerr", "look": "particle_storm", "quality": "automatic"}
+    assert state.scene == state.home == presets.load(["kerr", "particle_storm", "automatic"])
+
+
+def test_look_and_quality_lie_over_a_whole_scene(state):
+    preset_switch.pick(state, "scene", "luminet_1979")
+    preset_switch.pick(state, "look", "particle_storm")
+    preset_switch.pick(state, "quality", "draft")
+    assert state.scene == state.home == presets.load(["luminet_1979", "particle_storm", "draft"])
+    assert remarks(state) == {"scene": "", "look": "", "quality": ""}
+    preset_switch.pick(state, "look", "smooth")
+    assert state.scene == presets.load(["luminet_1979", "smooth", "draft"]), "what the first look said and the second does not is Luminet's again"
+    state.change({"sky.enabled": True})
+    assert remarks(state) == {"scene": " · modified", "look": "", "quality": ""}
+
+
 def test_missing_preset_is_a_notice(state):
     preset_switch.pick(state, "look", "no_such_look")
     assert state.notice.is_error and "no_such_look" in state.notice.text
