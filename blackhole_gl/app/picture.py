@@ -46,6 +46,7 @@ class Picture:
 
     Attributes:
         report: of the last picture rendered, a ``render.frame.FrameReport``; None before the first.
+        shown: the scene of that picture, which may lag behind that of the last `update`.
         rays: what became of its rays, as of the last `count_rays`.
         scale: width and height of the last picture over those of its area.
     """
@@ -53,6 +54,7 @@ class Picture:
     def __init__(self, gl: moderngl.Context, renderer: Any, preparation: Preparation):
         self.renderer = renderer
         self.report: Any = None
+        self.shown: Scene | None = None
         self.rays: RayFigures | None = None
         self.scale = 1.0
         self._targets = Targets(gl, renderer)
@@ -208,6 +210,6 @@ class Picture:
             if step.is_first:
                 self._pace.forget()
             self._pace.learn(report, scale)
-        self.report, self.scale = report, scale
+        self.report, self.shown, self.scale = report, step.drawn, scale
         self._sharpening.begin(step.drawn)
         return True

@@ -26,6 +26,7 @@ from .state import WindowState
 
 TITLE = "Side by side"
 _RESTS = 0.4  # seconds of stillness before a new view is measured
+_CHOICES_EM = 25.0  # of the window in which the other side is chosen
 _HANDLE_EM = 1.2
 _FLAGS = imgui.WindowFlags_
 _STRIP = (overlay.STILL | _FLAGS.no_background | _FLAGS.no_bring_to_front_on_focus | _FLAGS.no_focus_on_appearing).value
@@ -126,17 +127,18 @@ class SideBySide:
             left = round(self.sides.share * area.width)
             self._picture.draw_part(window, area, Area(area.x + left, area.y, area.width - left, area.height))
 
-    def frame(self, state: WindowState, picture: Picture, left_top: Corner, size: Corner) -> None:
+    def frame(self, state: WindowState, picture: Picture, left_top: Corner, size: Corner, foot: float) -> None:
         """The divider, what is said of the sides, and the window in which the other one is chosen; nothing while they are put away.
 
         Args:
             picture: the left side's.
             left_top, size: of the picture, in imgui's units.
+            foot: the height at its bottom that is taken by a colour scale, in the same; 0 where there is none.
         """
         if not state.show_sides or min(size) < 1.0:
             return
         self._divider(left_top, size)
-        self._labels(picture, left_top, size)
+        self._labels(picture, left_top, (size[0], size[1] - (foot + 0.4 * hello_imgui.em_size() if foot else 0.0)))
         self._choices(state, left_top, size)
 
     def _measure(self, gl: moderngl.Context, scenes: tuple[Scene, Scene], area: Area) -> None:
@@ -197,8 +199,10 @@ class SideBySide:
 
     def _choices(self, state: WindowState, left_top: Corner, size: Corner) -> None:
         em = hello_imgui.em_size()
-        # Beside the compass.
-        imgui.set_next_window_pos((left_top[0] + size[0] - 7.5 * em, left_top[1] + 0.6 * em), imgui.Cond_.appearing.value, (1.0, 0.0))
+        # Beside the compass, and under it where the picture is too narrow for both.
+        narrow = size[0] < (_CHOICES_EM + 8.0) * em
+        place = (left_top[0] + 0.6 * em, left_top[1] + 7.2 * em) if narrow else (left_top[0] + size[0] - 7.5 * em, left_top[1] + 0.6 * em)
+        imgui.set_next_window_pos(place, imgui.Cond_.appearing.value, (0.0 if narrow else 1.0, 0.0))
         flags = _FLAGS.no_docking | _FLAGS.no_collapse | _FLAGS.no_saved_settings | _FLAGS.always_auto_resize
         visible, stays = imgui.begin(TITLE, True, flags.value)
         state.show_sides = bool(stays)

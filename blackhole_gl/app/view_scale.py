@@ -13,10 +13,10 @@ _PIECES = 96
 _WIDTH_EM = 22.0
 
 
-def draw(view: View | None, corner: overlay.Corner, width: float) -> None:
-    """Draws what the colours of `view` mean, with its bottom right at `corner`, at most `width` wide; nothing where there is none."""
+def draw(view: View | None, corner: overlay.Corner, width: float) -> float:
+    """Draws what the colours of `view` mean, with its bottom right at `corner`, at most `width` wide, and returns its height; none where there is none."""
     if view is None:
-        return
+        return 0.0
     em = hello_imgui.em_size()
     length = max(min(_WIDTH_EM * em, width) - 2.0 * imgui.get_style().window_padding.x, 1.0)
     imgui.set_next_window_pos(corner, imgui.Cond_.always.value, (1.0, 1.0))
@@ -29,7 +29,9 @@ def draw(view: View | None, corner: overlay.Corner, width: float) -> None:
         bar(view.scale, length, em)
     for meaning, colour in view.legend:
         _legend_row(meaning, colour, em)
+    height = imgui.get_window_height()
     imgui.end()
+    return height
 
 
 def bar(scale: Scale, length: float, em: float) -> None:

@@ -265,8 +265,8 @@ class Window:
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         self._mouse_values.frame(state, (view.left, view.top), (view.width, view.height))
         label_overlay.draw(state, (view.left, view.top), (view.width, view.height))
-        colours = self.picture.renderer.view_of(state.scene)
-        view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
+        colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
+        foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
         if self.kept.start_line:
             self.start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
@@ -276,7 +276,7 @@ class Window:
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
-        self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
+        self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height), foot)
 
     def draw_bar(self) -> None:
         """The bar above picture and panel."""

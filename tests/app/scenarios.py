@@ -6,6 +6,7 @@ Each function takes `Hands` and raises AssertionError when something is not as i
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from imgui_bundle import imgui  # before glfw: on Linux the first GLFW that is loaded is the one used
@@ -703,6 +704,25 @@ def _still(hands: Hands, name: str) -> Path:
     return path
 
 
+def sides_hide_nothing(hands: Hands) -> None:
+    """The colour scale has a place of its own, and the window that chooses is whole where large letters leave it little room."""
+    hands.press(Key.v)
+    hands.press(Key.d)
+    hands.context.yield_(4)
+    scale, side = (imgui.internal.find_window_by_name(name) for name in ("##view scale", "##side 1"))
+    assert scale.active and side.active
+    assert side.pos.y + side.size.y <= scale.pos.y
+    hands.press(Key.d)
+    was, hands.window.kept = hands.window.kept, replace(hands.window.kept, text_size=1.3)
+    hands.context.yield_(4)
+    hands.press(Key.d)
+    hands.context.yield_(4)
+    choices = imgui.internal.find_window_by_name("Side by side")
+    assert choices.pos.x >= hands.window.view().left
+    hands.window.kept = was
+    hands.press(Key.d)
+
+
 def preset_switches_never_freeze(hands: Hands) -> None:
     """Every shipped preset picked in turn, with nothing compiled before: no frame is long, and the old picture stays until the new one is there."""
     picture, frames = hands.window.picture, Frames(hands.window)
@@ -781,4 +801,6 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
-WITH_THE_REAL_RENDERER = (real_picture, way_out_of_a_black_picture, shader_edited, live_chart, path_view, side_by_side, preset_switches_never_freeze)
+WITH_THE_REAL_RENDERER = (
+    real_picture, way_out_of_a_black_picture, shader_edited, live_chart, path_view, side_by_side, sides_hide_nothing, preset_switches_never_freeze,
+)  # fmt: skip

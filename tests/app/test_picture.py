@@ -343,6 +343,7 @@ def test_the_last_picture_stays_while_programs_are_missing(shown):
     shown.picture.renderer.render = missing
     for _ in range(3):
         assert not shown.draw(60.0) and shown.seen() == close(40.0)
+        assert shown.picture.shown.camera.azimuth_deg == 40.0, "what is written over it is about that one"
 
 
 def test_the_coarse_pictures_that_begin_another_scene_are_never_seen(ctx):

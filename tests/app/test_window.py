@@ -17,7 +17,7 @@ HERE = Path(__file__).resolve().parent
 TEXT = (HERE / "scenarios.py").read_text(encoding="utf-8") + (HERE / "scenarios_entry.py").read_text(encoding="utf-8")
 HELPERS = ("save_picture", "press_bar", "goes_to")
 SCENARIOS = [name for name in re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE) if name not in HELPERS]
-REAL = re.findall(r"\w+", re.search(r"^WITH_THE_REAL_RENDERER = \((.*)\)", TEXT, re.MULTILINE)[1])
+REAL = re.findall(r"\w+", re.search(r"^WITH_THE_REAL_RENDERER = \(([^)]*)\)", TEXT, re.MULTILINE)[1])
 WITH_KINDS = re.findall(r"\w+", re.search(r"^WITH_KINDS = \((.*)\)", TEXT, re.MULTILINE)[1])
 PRETENDED = [name for name in SCENARIOS if name not in REAL + WITH_KINDS]
 
