@@ -31,6 +31,9 @@ from .uniforms import stars_a_pixel
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
 
+# About a tile, drawn with it and left out: whether a pixel is at an edge depends on those beside it. Even, as the tiles are.
+_MARGIN = 2
+
 # Listed rays are told by angles from the hole, not from the middle of the picture.
 _AT_THE_HOLE = {"camera.yaw_deg": 0.0, "camera.pitch_deg": 0.0, "camera.roll_deg": 0.0}
 
@@ -224,10 +227,12 @@ class Renderer:
         passes = [(tile, index) for tile in tiles for index in range(samples * samples)]
         for done, ((x, y), index) in enumerate(passes):
             shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
-            part = min(tile, width - x), min(tile, height - y)
-            inputs = FrameInputs(plan, time, part, size, (x + shift[0], y + shift[1]))
+            left, bottom = max(x - _MARGIN, 0), max(y - _MARGIN, 0)
+            drawn = min(x + tile + _MARGIN, width) - left, min(y + tile + _MARGIN, height) - bottom
+            inputs = FrameInputs(plan, time, drawn, size, (left + shift[0], bottom + shift[1]))
             self._trace(inputs)
-            total[y : y + part[1], x : x + part[0]] += _radiance_of(self._shaded_with_edges(inputs)) / samples**2
+            part = _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile]
+            total[y : y + tile, x : x + tile] += part / samples**2
             yield (done + 1) / len(passes)
         texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
         self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
