@@ -13,7 +13,7 @@ import numpy as np
 from .. import listed_rays, plan
 from ..listed_rays import TracedRays
 from ..render.frame import Renderer
-from ..scene import Scene
+from ..scene import Scene, met
 from ..worker import Worker
 from . import timing
 from .errors import compare
@@ -63,17 +63,17 @@ class Live:
     """Measures the methods on the view of `scene`. The float64 twin runs in the worker's process, the shader in the caller's context.
 
     Attributes:
-        scene: the scene measured.
+        scene: the scene measured: the view without things and media, which bend no ray and which the twin does not know.
         points: what has been found so far.
         failure: why there is nothing to measure; empty when there is.
     """
 
     def __init__(self, scene: Scene, worker: Worker):
-        self.scene = scene
+        self.scene = met.without_any(scene)
         self._worker = worker
         self.points: list[LivePoint] = []
         self.failure = "" if is_physical(scene) else "Gravity or horizon are not physical: there is no truth to compare with."
-        methods = sensible(scene, whole=False)
+        methods = sensible(self.scene, whole=False)
         # All methods with their coarsest step first: the chart's outline is there early.
         settings = [(rank, method, setting) for method in methods for rank, setting in enumerate(method.settings(quick=True))]
         self._left = [(method, setting) for _, method, setting in sorted(settings, key=lambda item: item[0])]

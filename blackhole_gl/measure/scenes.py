@@ -12,7 +12,7 @@ from .. import listed_rays
 from ..listed_rays import TracedRays
 from ..physics import observer, relativity
 from ..plan.choice import REFINED_SIZE
-from ..scene import Scene, catalogue, presets
+from ..scene import Scene, catalogue, met, presets
 
 ASPECT = REFINED_SIZE[0] / REFINED_SIZE[1]
 FULL_HD = 1080
@@ -125,7 +125,7 @@ def is_physical(scene: Scene) -> bool:
 
 
 def chart_scenes(quick: bool = False) -> list[ChartScene]:
-    """The chart's own scenes, then every shipped physics and scene preset that shows a hole as it is; a quick run has `SHOWN` alone."""
+    """The chart's own scenes, then every shipped physics and scene preset that `is_charted`; a quick run has `SHOWN` alone."""
     kerr = presets.load(["kerr"])
     own = {}
     for name, (spin, distance, inclination, view) in _OWN.items():
@@ -133,10 +133,11 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
     if quick:
         return [ChartScene(name, own[name], 400, whole=False) for name in SHOWN]
     shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group in ("physics", "scene")}
-    physical = {name: scene for name, scene in shipped.items() if is_physical(scene) and _has_a_hole(scene)}
+    physical = {name: scene for name, scene in shipped.items() if is_charted(scene)}
     return [ChartScene(name, scene, whole=name in SHOWN) for name, scene in (own | physical).items()]
 
 
-def _has_a_hole(scene: Scene) -> bool:
+def is_charted(scene: Scene) -> bool:
+    """Whether the chart measures `scene`: a hole as it is, and nothing to meet but the disk, as the float64 reference knows no more."""
     model = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses
-    return scene.rays.lensing and (model is None or not model.traits.field)
+    return is_physical(scene) and met.is_empty(scene) and scene.rays.lensing and (model is None or not model.traits.field)

@@ -17,6 +17,7 @@ from ..scene.schema import number_of
 from ..scene.traits import MetTraits
 from ..shapes import Float
 from . import relativity
+from .moving_matter import own_time_squared
 from .observer import cos_sin_deg
 from .space_time import SpaceTime
 
@@ -28,7 +29,7 @@ class Motion:
     Attributes:
         centre: float64 (3,), r_s.
         reach: r_s from there, beyond which no part of it lies: with `centre` its bounding sphere.
-        velocity: dx/dt of the centre, float64 (3,).
+        velocity: dx/dt of the centre, float64 (3,); on a circle that is gone round faster than light can, of a slower one: `outruns_light`.
         spin: angular velocity about the centre, float64 (3,), rad c/r_s.
         attitude: unit quaternion (x, y, z, w), float64 (4,), that turns the instance's own axes to the world's.
     """
@@ -58,6 +59,7 @@ def of(instance: Instance, traits: MetTraits, where: SpaceTime, time: float) -> 
         centre = np.array([_number(instance, name) for name in traits.centre]) if traits.centre else _STILL
         return Motion(centre, reach, _STILL, _STILL, _UPRIGHT)
     centre, velocity = (_at_rest(instance), _STILL) if instance.values["path"] == "fixed" else _on_circle(instance, where, time)
+    velocity = _possible_share(centre, velocity, where) * velocity
     axis, attitude = _attitude(instance, time)
     return Motion(centre, reach, velocity, _number(instance, "turn_rate") * axis, attitude)
 
@@ -66,6 +68,32 @@ def moves(instance: Instance, traits: MetTraits) -> bool:
     """Whether rays meet `instance` elsewhere at another time."""
     turns = not traits.round and traits.moves and instance.values["turn_rate"] != 0.0
     return turns or traits.moves and instance.values["path"] != "fixed"
+
+
+def outruns_light(instance: Instance, traits: MetTraits, where: SpaceTime) -> bool:
+    """Whether `instance` is to go round its circle faster than matter can there; its light is shifted as if it were just slower."""
+    if not traits.moves or instance.values["path"] == "fixed":
+        return False
+    return any(_possible_share(*_on_circle(instance, where, time), where) < 1.0 for time in _quarters(orbit_rate(instance, where)))
+
+
+def _quarters(rate: float) -> list[float]:
+    """Times at which a circle is at its highest, lowest and between: its speed limit is one of those there, as space-time is alike all round the axis."""
+    return [0.5 * math.pi * quarter / abs(rate) if rate else 0.0 for quarter in range(4)]
+
+
+def _possible_share(centre: Float[np.ndarray, " 3"], velocity: Float[np.ndarray, " 3"], where: SpaceTime) -> float:
+    """The share of `velocity` that matter at `centre` can have: 1, or so much that its own time runs at a tenth of its rate at rest."""
+    if not np.any(velocity) or math.hypot(centre[0], centre[1]) < 1e-9:
+        return 1.0
+    mass = 0.0 if where.kind == "flat" else 1.0
+    clock = {share: float(own_time_squared(centre, share * velocity, where.observer_spin, mass)) for share in (-1.0, 0.0, 1.0)}
+    rest, curved, slope = clock[0.0], 0.5 * (clock[1.0] + clock[-1.0]) - clock[0.0], 0.5 * (clock[1.0] - clock[-1.0])
+    least = 0.01 * max(rest, 0.0)
+    if clock[1.0] >= least or rest <= 0.0:
+        return 1.0
+    root = math.sqrt(max(slope * slope - 4.0 * curved * (rest - least), 0.0))
+    return min((slope + root) / (-2.0 * curved), 1.0)
 
 
 def _at_rest(instance: Instance) -> Float[np.ndarray, " 3"]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
+from ..physics import motion
 from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
-from ..scene import Scene, SceneError, catalogue, met
+from ..scene import Scene, SceneError, catalogue, instances, met
 from ..scene.catalogue import PlugIn
 from . import choice
 from .record import MERIDIAN, WORLD, Plan
@@ -76,7 +77,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) else WORLD,
         reasons=tuple(reasons),
-        warnings=(*_why_longer(stretch, max_steps), *_why_coarse(scene, chosen)),
+        warnings=(*_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
     )
 
 
@@ -101,6 +102,17 @@ def _why_coarse(scene: Scene, made: choice.Choice) -> tuple[str, ...]:
     if error > allowed:
         return (f"the steps stated err by {error:.2g} px, more than the {allowed:g} px allowed: without them a method within it would be taken",)
     return ()
+
+
+def _why_slower(scene: Scene, where: SpaceTime) -> tuple[str, ...]:
+    """What to say of things and media that are to move faster than light."""
+    found = []
+    for section, slot in instances.SLOTS.items():
+        kinds = catalogue.plug_ins(slot)
+        for name, instance in getattr(scene, section).items():
+            if motion.outruns_light(instance, kinds[instance.kind].traits, where):
+                found.append(f"{section}.{name} goes round faster than light can: its light is shifted as if it were just slower than that")
+    return tuple(found)
 
 
 def _meetings(scene: Scene) -> int:

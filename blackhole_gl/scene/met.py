@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from . import catalogue
+from .frozen import FrozenMap
 from .instances import Instance
 from .plug_in import PlugIn
 from .records import Scene
@@ -29,6 +31,11 @@ def kinds(scene: Scene, slot: str) -> list[PlugIn]:
 def is_empty(scene: Scene) -> bool:
     """Whether there is nothing to meet but the disk."""
     return not scene.things and not scene.media
+
+
+def without_any(scene: Scene) -> Scene:
+    """`scene` without its things and media: the ways of its light are the same."""
+    return scene if is_empty(scene) else replace(scene, things=FrozenMap(), media=FrozenMap())
 
 
 def extent(instance: Instance, traits: MetTraits) -> float:

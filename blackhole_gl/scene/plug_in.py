@@ -53,7 +53,10 @@ KIND = "kind"
 SWITCH = "enabled"
 """What stands for a layer's own switch among its parameters in a file, which none of them may be called."""
 
-_RESERVED = {"disk_layer": SWITCH, "thing": KIND, "medium": KIND}
+_OF_INSTANCES = (KIND, "count", "bound", "centre", "velocity", "spin", "attitude", "finish", "distance", "crossing", "light")
+"""What shaders and scenes call something else of an instance."""
+
+_RESERVED: Mapping[str, tuple[str, ...]] = {"disk_layer": (SWITCH,), "thing": _OF_INSTANCES, "medium": _OF_INSTANCES}
 _DECLARED = ("parameters", "tables", "numbers")
 
 T = TypeVar("T", bound=Traits)
@@ -194,7 +197,7 @@ def _parameters(declared: Mapping[str, Mapping[str, Any]], slot: str, key: str, 
     prefix = "" if SLOTS[slot].of_kinds else f"{SLOTS[slot].section}.{key}."
     found = {}
     for name, entry in declared.items():
-        if name == _RESERVED.get(slot):
+        if name in _RESERVED.get(slot, ()):
             raise CatalogueError(f"{place}: parameters.{name}: {name!r} has another meaning here; the parameter needs another name")
         found[prefix + name] = parameters.field_of(prefix + name, entry, f"{place}: parameters.{name}")
     return MappingProxyType(found)

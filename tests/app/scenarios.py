@@ -754,7 +754,7 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     hands.click("Add##things")
     assert hands.scene.things["moon"].kind == "globe"
     hands.fill("##things.moon.radius", 2.5)
-    hands.fill("##things.moon.count", 4)
+    hands.fill("##things.moon.number", 4)
     hands.click("##things.moon.glows")
     hands.choose("##things.moon.pattern", "chequered##chequered", table="values of things.moon/")
     hands.fill("##things.moon.caption", "The moon")
@@ -762,8 +762,8 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     assert hands.state.notice.is_error and "things.moon.image: got 'moon.gif'" in hands.state.notice.text
     hands.fill("##things.moon.image", "moon.png")
     values = hands.scene.things["moon"].values
-    assert {name: values[name] for name in ("radius", "count", "glows", "pattern", "caption", "image")} == {
-        "radius": 2.5, "count": 4, "glows": True, "pattern": "chequered", "caption": "The moon", "image": "moon.png",
+    assert {name: values[name] for name in ("radius", "number", "glows", "pattern", "caption", "image")} == {
+        "radius": 2.5, "number": 4, "glows": True, "pattern": "chequered", "caption": "The moon", "image": "moon.png",
     }  # fmt: skip
     hands.fill("##things.moon.radii[1]", 4.0)
     hands.click("+##things.moon.radii")

@@ -19,7 +19,7 @@ def state(known_kinds: Path) -> WindowState:  # noqa: F811
     folder = known_kinds / "presets"
     folder.mkdir()
     for name, text in {
-        "lit": "[things.moon]\nkind = 'globe'\nradius = 2.0\ncount = 5\n[things.sun]\nkind = 'globe'\n",
+        "lit": "[things.moon]\nkind = 'globe'\nradius = 2.0\nnumber = 5\n[things.sun]\nkind = 'globe'\n",
         "dim": "[things.moon]\nkind = 'globe'\nradius = 3.0\n",
         "bare": "[post]\ngamma = 2.0\n",
     }.items():
@@ -29,7 +29,7 @@ def state(known_kinds: Path) -> WindowState:  # noqa: F811
 
 def test_a_preset_brings_its_instances_and_takes_them_along_when_another_is_picked(state: WindowState) -> None:
     preset_switch.pick(state, "look", "lit")
-    assert list(state.scene.things) == ["moon", "sun"] and state.scene.get("things.moon.count") == 5
+    assert list(state.scene.things) == ["moon", "sun"] and state.scene.get("things.moon.number") == 5
     preset_switch.pick(state, "look", "dim")
     assert list(state.scene.things) == ["moon"], "the sun was the other look's alone"
     assert state.scene.get("things.moon.radius") == 3.0

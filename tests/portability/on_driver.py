@@ -15,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 from blackhole_gl import listed_rays
-from blackhole_gl.measure.scenes import ChartScene, is_physical
+from blackhole_gl.measure.scenes import ChartScene, is_charted
 from blackhole_gl.render.context import create_headless
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.resources import presets_dir
@@ -28,7 +28,7 @@ RAYS = 500
 def places() -> list[ChartScene]:
     """Every shipped preset that shows a hole as it is and leaves its method to the plan, each with a sample of its picture's rays."""
     shipped = [info.name for info in presets.available() if info.group in ("physics", "scene") and info.path.is_relative_to(presets_dir())]
-    return [ChartScene(name, scene, RAYS) for name, scene in ((name, presets.load([name])) for name in shipped) if is_physical(scene)]
+    return [ChartScene(name, scene, RAYS) for name, scene in ((name, presets.load([name])) for name in shipped) if is_charted(scene)]
 
 
 def main(folder: Path) -> None:

@@ -11,11 +11,11 @@ import pytest
 from blackhole_gl import listed_rays, plan
 from blackhole_gl.measure import refined
 from blackhole_gl.measure.errors import compare
-from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene
+from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene, is_charted
 from blackhole_gl.plan import choice
 from blackhole_gl.scene import presets
 
-PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and presets.load([info.name]).hole.gravity_strength == 1.0]
+PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and is_charted(presets.load([info.name]))]
 
 
 @pytest.mark.parametrize("name", PHYSICAL)

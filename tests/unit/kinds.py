@@ -23,7 +23,7 @@ range = [0.1, 50.0]
 unit = "r_s"
 help = "Its radius."
 
-[parameters.count]
+[parameters.number]
 default = 3
 range = [1, 9]
 help = "How many."

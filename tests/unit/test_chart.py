@@ -333,6 +333,12 @@ def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer) -> None:
     assert not measured.busy
 
 
+def test_the_live_chart_of_a_scene_with_things_is_that_of_its_light() -> None:
+    """Things bend no ray, and the float64 twin knows none."""
+    assert live.Live(presets.load(["orbiting_star"]), _AtOnce()).scene.things == {}
+    assert not {"orbiting_star", "neutron_star"} & {item.name for item in chart_scenes()}
+
+
 def test_the_live_chart_of_art_says_that_there_is_no_truth() -> None:
     measured = live.Live(presets.load(["gargantua_s1"]), _AtOnce())
     assert "no truth" in measured.failure and not measured.busy

@@ -10,10 +10,11 @@ from dataclasses import asdict, replace
 import pytest
 
 from blackhole_gl import plan, resources
+from blackhole_gl.measure.scenes import is_charted
 from blackhole_gl.plan import choice, measured
 from blackhole_gl.scene import Scene, presets
 
-PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and presets.load([info.name]).hole.gravity_strength == 1.0]
+PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and is_charted(presets.load([info.name]))]
 
 
 def table() -> list[dict[str, str]]:

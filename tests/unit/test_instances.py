@@ -36,7 +36,7 @@ def test_a_kind_makes_an_instance_with_its_defaults():
     made = scene.things["moon"]
     assert isinstance(made, Instance) and made.kind == "globe"
     assert made.values["radii"] == (1.0, 2.0) and made.values["path"] == ()
-    assert list(made.values) == ["radius", "count", "glows", "pattern", "caption", "image", "radii", "path"]
+    assert list(made.values) == ["radius", "number", "glows", "pattern", "caption", "image", "radii", "path"]
     assert Scene().things == {} and Scene() != scene
 
 
@@ -121,7 +121,7 @@ def test_the_order_of_a_frozen_map_counts_and_a_plain_dictionary_is_compared_by_
         ("media.mon.density", 1.0, "media.mon.density: there is no medium 'mon'; there is none in this scene. Allowed to make one is its kind: media.mon.kind"),
         ("things.sun.kind", "glbe", "things.sun.kind: got 'glbe'; allowed is one of cube, globe; did you mean globe?"),
         ("things.sun.kind", ["globe"], "things.sun.kind: got a list; allowed is one of cube, globe"),
-        ("things.moon.raduis", 1.0, "things.moon.raduis: a globe has no 'raduis'; allowed are kind, radius, count"),
+        ("things.moon.raduis", 1.0, "things.moon.raduis: a globe has no 'raduis'; allowed are kind, radius, number"),
         ("things.moon.raduis", 1.0, "did you mean radius?"),
         ("things.moon.radius", 99.0, "things.moon.radius: got 99.0; allowed is a number from 0.1 to 50 r_s"),
         ("things.moon.pattern", "checkered", "allowed is one of plain, chequered; did you mean chequered?"),
@@ -376,7 +376,7 @@ _globes = st.fixed_dictionaries(
     {"kind": st.just("globe")},
     optional={
         "radius": st.floats(0.1, 50.0),
-        "count": st.integers(1, 9),
+        "number": st.integers(1, 9),
         "glows": st.booleans(),
         "pattern": st.sampled_from(["plain", "chequered"]),
         "caption": _texts,
@@ -431,7 +431,7 @@ def test_any_tree_is_a_scene_or_a_clear_error(section, tree):
 
 @settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
-    st.sampled_from(["radius", "count", "glows", "pattern", "caption", "image", "radii", "path"]),
+    st.sampled_from(["radius", "number", "glows", "pattern", "caption", "image", "radii", "path"]),
     st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), _trees),
 )
 def test_whatever_is_given_is_taken_whole_or_refused_with_a_sentence(name, value):
