@@ -33,8 +33,9 @@ _PHASE = np.array([0.13, 0.58, 0.91, 0.27, 0.74, 0.42])
 _AMPLITUDE = np.array([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]) / 9.0
 
 
-def media(size: float, strength: float, width: float, raggedness: float, grain: float, index: float) -> dict[str, Medium]:
-    """The media by name."""
+def media(field_radius: float, size: float, strength: float, width: float, raggedness: float, grain: float, index: float) -> dict[str, Medium]:
+    """The media by name. What Luneburg's lens is beyond a sphere that it fills is nobody's to see: there it goes on, so that steps find nothing broken off."""
+    rim = 2.0 if size >= field_radius else 1.0
 
     def of_square(square: Array, gradient: Array) -> tuple[Array, Array]:
         n = np.sqrt(square)
@@ -57,7 +58,7 @@ def media(size: float, strength: float, width: float, raggedness: float, grain: 
 
     def luneburg(x: Array) -> tuple[Array, Array]:
         q = (x * x).sum(axis=0) / size**2
-        return of_square(np.where(q < 1.0, 2.0 - q, 1.0), np.where(q < 1.0, -2.0 * x / size**2, 0.0))
+        return of_square(np.where(q < rim, 2.0 - q, 1.0), np.where(q < rim, -2.0 * x / size**2, 0.0))
 
     def fish_eye(x: Array) -> tuple[Array, Array]:
         below = 1.0 + (x * x).sum(axis=0) / size**2
@@ -72,10 +73,10 @@ def media(size: float, strength: float, width: float, raggedness: float, grain: 
 
 
 @twin("refraction", metric=None, spins=False, has_hole=False, parameters={**SPHERE, **{name: f"rays.refraction.{name}" for name in _NAMES}})
-def refraction(view: View, field_radius: float = 10.0, field_way: float = 400.0, medium: str = "explosion", size: float = 6.0, strength: float = 0.5,
+def refraction(view: View, field_radius: float = 10.0, field_way: float = 400.0, medium: str = "explosion", size: float = 6.0, strength: float = 0.3,
                width: float = 1.0, raggedness: float = 0.15, grain: float = 4.0, index: float = 2.0) -> Traced:
     """field_radius, field_way, size, width and grain in r_s."""
-    n_at = media(size, strength, width, raggedness, grain, index)[medium]
+    n_at = media(field_radius, size, strength, width, raggedness, grain, index)[medium]
 
     def force(x: Array, tangent: Array) -> Array:
         n, gradient = n_at(x)

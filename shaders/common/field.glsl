@@ -87,7 +87,7 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
 #endif
     if (orbit.bends > 0.0 && way.enter > way.begin) {
         if (field_leg(x, way.v, way.enter - way.begin, hits)) hits.fate = MET;
-        x = way.nearest + way.enter * way.v;
+        x = (1.0 - 4e-7) * (way.nearest + way.enter * way.v);  // within by more than a rounding: it has come in, and not left
     }
     return State(x, field_entry_speed(x) * way.v, 0.0);
 }
@@ -133,9 +133,8 @@ float ray_longest_step(Orbit orbit, State s) {
     return 0.25 * rays_field_radius * ray_slowdown(s);
 }
 
-// A ray that has come in lies on the sphere to a rounding: it has left where it is 2e-6 beyond.
 float field_beyond(State s) {
-    return dot(s.x, s.x) - rays_field_radius * rays_field_radius * (1.0 + 4e-6);
+    return dot(s.x, s.x) - rays_field_radius * rays_field_radius;
 }
 
 int ray_fate(Orbit orbit, State s) {

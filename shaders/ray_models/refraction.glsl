@@ -16,7 +16,7 @@ field = true
 [parameters]
 medium = { default = "explosion", options = ["explosion", "mirage", "luneburg", "fish_eye", "linear"], help = "How n changes: a ragged shell, a hot floor in z = 0, Luneburg's lens, Maxwell's fish-eye, n² linear in z." }
 size = { default = 6.0, range = [0.01, 1000.0], unit = "r_s", help = "Radius of the shell or of the lens, at which the fish-eye's n is half of what it is in its middle; height of the floor's hot air." }
-strength = { default = 0.5, range = [-0.95, 5.0], help = "By how much n² is larger in the shell than 1; less above the floor than high up; larger for each r_s of height where it is linear. The lenses have none." }
+strength = { default = 0.3, range = [-0.95, 5.0], help = "By how much n² is larger in the shell than 1; less above the floor than high up; larger for each r_s of height where it is linear. The lenses have none." }
 width = { default = 1.0, range = [0.01, 100.0], unit = "r_s", help = "Thickness of the shell." }
 raggedness = { default = 0.15, range = [0.0, 1.0], help = "How far the shell's radius wanders, in parts of it." }
 grain = { default = 4.0, range = [0.1, 100.0], unit = "r_s", help = "Length over which it wanders." }
@@ -45,10 +45,10 @@ vec4 refraction(vec3 x) {
     return vec4(0.0, 0.0, 0.25 * rays_refraction_strength * slope, 1.0 - 0.5 * rays_refraction_strength * (1.0 - x.z * h));
 }
 #elif RAYS_REFRACTION_MEDIUM_LUNEBURG
-// n² = 2 − r²/size²
+// n² = 2 − r²/size² within; a lens as large as the sphere ends with it, and steps that pass over its rim find nothing that breaks off.
 vec4 refraction(vec3 x) {
     float q = dot(x, x) / (rays_refraction_size * rays_refraction_size);
-    return q < 1.0 ? vec4(-x / (rays_refraction_size * rays_refraction_size), 2.0 - q) : vec4(0.0, 0.0, 0.0, 1.0);
+    return q < 1.0 || rays_refraction_size >= rays_field_radius ? vec4(-x / (rays_refraction_size * rays_refraction_size), 2.0 - q) : vec4(0.0, 0.0, 0.0, 1.0);
 }
 #elif RAYS_REFRACTION_MEDIUM_FISH_EYE
 // n = index/(1 + r²/size²)
