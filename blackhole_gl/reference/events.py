@@ -66,41 +66,73 @@ class Plane:
     def value(self, inverse_radius: Float[Array, "*points"], n: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return self.normal @ n
 
+    def on_line(self, x: Float[Array, "N 3"], v: Float[Array, "N 3"]) -> list[Float[Array, " N"]]:
+        """s (N,) at which the lines x + s v meet it; not finite, or not above 0, where they do not: a camera in the plane does not meet its own place."""
+        height = x @ self.normal
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return [np.where(np.abs(height) > IN_PLANE * np.linalg.norm(x, axis=1), -height / (v @ self.normal), np.nan)]
+
     @property
-    def equatorial(self) -> bool:
-        return not np.any(self.normal[:2])
+    def may_return(self) -> bool:
+        """Whether a ray may come near it and go away again within a step: theta swings about the equator itself, there a ray that nears it goes through."""
+        return bool(np.any(self.normal[:2]))
+
+
+@dataclass(frozen=True)
+class Ball:
+    """The sphere of `radius` in r_s about `centre` (3,), in r_s."""
+
+    centre: Float[Array, " 3"]
+    radius: float
+
+    may_return = True
+
+    def value(self, inverse_radius: Float[Array, "*points"], n: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
+        """(|x - centre|^2 - radius^2)/r^2, which is regular through infinity."""
+        offset = n - np.multiply.outer(self.centre, inverse_radius)
+        return (offset * offset).sum(axis=0) - (self.radius * inverse_radius) ** 2
+
+    def on_line(self, x: Float[Array, "N 3"], v: Float[Array, "N 3"]) -> list[Float[Array, " N"]]:
+        """s (N,) at which the lines x + s v, v unit vectors, enter and leave it; NaN where they do not."""
+        arm = x - self.centre
+        along = -np.einsum("ij,ij->i", arm, v)
+        deep = self.radius**2 - np.sum((arm + along[:, None] * v) ** 2, axis=1)
+        chord = np.sqrt(np.where(deep > 0.0, deep, np.nan))
+        return [along - chord, along + chord]
 
 
 INFINITY = Sphere(math.inf)
 
 
 class Watch:
-    """The monitor of a march: the fates of its rays and their crossings of `planes`, at most `orders` of each.
+    """The monitor of a march: the fates of its rays and their crossings of `surfaces`, at most `orders` of each.
 
     Rays escape at `outer`. A step that ends in the hole is looked at as far as `inner`, since Boyer-Lindquist's azimuth has no limit at the horizon; without
     one, as where there is no hole, it is not looked at.
 
-    Attributes: fate (N,) int8, direction (N, 3), crossings (N, planes, orders), as in `hits.Traced`.
+    Attributes: fate (N,) int8, direction (N, 3), crossings (N, surfaces, orders), as in `hits.Traced`.
     """
 
     swings_about_equator = True
     """Whether theta does, as round a hole, so that no ray comes near the equatorial plane and turns back."""
 
-    def __init__(self, system: RaySystem, state: Float[Array, "rows N"], planes: Sequence[Plane], orders: int, outer: Event, inner: Event | None):
+    def __init__(
+        self, system: RaySystem, state: Float[Array, "rows N"], surfaces: Sequence[Plane | Ball], orders: int, outer: Event, inner: Event | None
+    ):
         count = state.shape[1]
         self.fate = np.full(count, UNRESOLVED, dtype=np.int8)
         self.direction = np.zeros((count, 3))
-        self.crossings = Crossings.none(count, len(planes), orders)
+        self.crossings = Crossings.none(count, len(surfaces), orders)
         self._system = system
-        self._planes = planes
+        self._surfaces = surfaces
         self._orders = orders
         self._outer = outer
         self._inner = inner
         self._travelled = np.zeros(count)
-        self._found = np.zeros((len(planes), count), dtype=np.int64)
-        # A camera in the plane (side 0) takes the side its ray leaves to; its own place is no crossing.
+        self._found = np.zeros((len(surfaces), count), dtype=np.int64)
+        # A camera in a plane (side 0) takes the side its ray leaves to; its own place is no crossing.
         with np.errstate(divide="ignore"):  # r is infinite at infinity
-            start = np.stack([self._value(plane)(state) for plane in planes])
+            start = np.stack([self._value(surface)(state) for surface in surfaces])
         self._side = np.where(np.abs(start) > IN_PLANE, np.sign(start), 0.0)
 
     def __call__(
@@ -119,8 +151,8 @@ class Watch:
         n = self._heading(rays[escaped], last[:, escaped])
         self.direction[rays[escaped]] = n / np.linalg.norm(n, axis=1, keepdims=True)
         watched = ~captured | (end < step)
-        for index, plane in enumerate(self._planes):
-            self._look(index, plane, rays[watched], before[:, watched], last[:, watched], end[watched])
+        for index, surface in enumerate(self._surfaces):
+            self._look(index, surface, rays[watched], before[:, watched], last[:, watched], end[watched])
         self._travelled[rays] += step
         return escaped | captured
 
@@ -134,28 +166,28 @@ class Watch:
     def _locate(self, event: Event, before: Array, after: Array, step: Array) -> tuple[Array, Array]:
         return locate_zero(self._system.rhs, self._value(event), before, after, step)
 
-    def _look(self, index: int, plane: Plane, rays: Array, before: Array, after: Array, step: Array) -> None:
-        """One plane in one step: the step whole, or in two pieces where the ray comes near the plane and goes away again within it."""
+    def _look(self, index: int, surface: Plane | Ball, rays: Array, before: Array, after: Array, step: Array) -> None:
+        """One surface in one step: the step whole, or in two pieces where the ray comes near it and goes away again within it."""
         returning = np.zeros(rays.size, dtype=bool)
-        if not (plane.equatorial and self.swings_about_equator):  # there a ray that nears it goes through
-            value, rate = self._value(plane), rate_along(self._system.rhs, self._value(plane))
+        if surface.may_return or not self.swings_about_equator:
+            value, rate = self._value(surface), rate_along(self._system.rhs, self._value(surface))
             returning = (value(before) * rate(before, step) < 0.0) & (value(after) * rate(after, step) > 0.0) & (value(before) * value(after) > 0.0)
         whole = ~returning
-        self._cross(index, plane, rays[whole], before[:, whole], after[:, whole], step[whole], 0.0)
+        self._cross(index, surface, rays[whole], before[:, whole], after[:, whole], step[whole], 0.0)
         if returning.any():
             rays, before, after, step = rays[returning], before[:, returning], after[:, returning], step[returning]
             nearest, middle = locate_zero(self._system.rhs, lambda state: rate(state, step), before, after, step)
-            self._cross(index, plane, rays, before, middle, nearest, 0.0)
-            self._cross(index, plane, rays, middle, after, step - nearest, nearest)
+            self._cross(index, surface, rays, before, middle, nearest, 0.0)
+            self._cross(index, surface, rays, middle, after, step - nearest, nearest)
 
-    def _cross(self, index: int, plane: Plane, rays: Array, before: Array, after: Array, step: Array, offset: Array | float) -> None:
-        """Records the crossing of each ray whose side of the plane changes between two states; `offset`: of `before` from the step's start."""
-        side = np.sign(self._value(plane)(after))
+    def _cross(self, index: int, surface: Plane | Ball, rays: Array, before: Array, after: Array, step: Array, offset: Array | float) -> None:
+        """Records the crossing of each ray whose side of the surface changes between two states; `offset`: of `before` from the step's start."""
+        side = np.sign(self._value(surface)(after))
         part = np.flatnonzero((side * self._side[index, rays] < 0.0) & (self._found[index, rays] < self._orders))
         self._side[index, rays] = np.where(side != 0.0, side, self._side[index, rays])
         if not part.size:
             return
-        parameter, state = self._locate(plane, before[:, part], after[:, part], step[part])
+        parameter, state = self._locate(surface, before[:, part], after[:, part], step[part])
         inverse_radius, n = self._system.place(state)
         crossing = rays[part]
         along = self._travelled[crossing] + np.broadcast_to(offset, rays.shape)[part] + parameter

@@ -6,16 +6,17 @@ farther than is allowed is held in the field, and counts as captured. Planes thr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..shapes import Bool, Float, Int
-from .events import IN_PLANE, Plane, Sphere, Watch
+from .events import Ball, Plane, Sphere, Watch
 from .flat import l_z_of_straight_rays, lines
 from .hits import ESCAPED, Traced
-from .integrator import locate_zero, march
+from .integrator import System, locate_zero, march
+from .marching import Unhurried, surfaces_of
 from .registry import View
 
 Array = np.ndarray
@@ -28,6 +29,7 @@ SPHERE: Mapping[str, str] = {"field_radius": "rays.field_radius", "field_way": "
 """The parameters that every field has."""
 
 _MAX_STEPS = 20000
+_NO_HORIZON = 1e-6  # r_s; there is none to come near
 _LONGEST = 0.1  # of the sphere's radius, a step: no way to a plane and back hides in it that is worth the name
 _INSIDE = 1e-12  # relative: a ray that comes in begins so far within the sphere
 
@@ -94,8 +96,8 @@ class _FieldWatch(Watch):
 
     swings_about_equator = False
 
-    def __init__(self, system: FieldSystem, state: Array, planes: list[Plane], orders: int, radius: float):
-        super().__init__(system, state, planes, orders, Sphere(radius), None)
+    def __init__(self, system: FieldSystem, state: Array, surfaces: Sequence[Plane | Ball], orders: int, radius: float):
+        super().__init__(system, state, surfaces, orders, Sphere(radius), None)
         self.places = np.full((state.shape[1], 3), np.nan)
 
     def _heading(self, rays: Int[Array, " k"], state: Float[Array, "rows k"]) -> Float[Array, "k 3"]:
@@ -104,17 +106,15 @@ class _FieldWatch(Watch):
 
     def look_along(self, rays: Array, x: Array, v: Array, far: Array | float) -> None:
         """Records what rays (k,) meet on the lines x + s v, both (k, 3), for 0 < s < far."""
-        for index, plane in enumerate(self._planes):
-            height, slope = x @ plane.normal, v @ plane.normal
-            with np.errstate(divide="ignore", invalid="ignore"):
-                s = np.where(np.abs(height) > IN_PLANE * np.linalg.norm(x, axis=1), -height / slope, np.nan)
-            part = np.flatnonzero((s > 0.0) & (s < far) & (self._found[index, rays] < self._orders))
-            point = x[part] + s[part, None] * v[part]
-            r = np.linalg.norm(point, axis=1)
-            crossing = rays[part]
-            where = (crossing, index, self._found[index, crossing])
-            self.crossings.record(where, self._travelled[crossing] + s[part], r, point.T / r, (np.nan, np.nan))
-            self._found[index, crossing] += 1
+        for index, surface in enumerate(self._surfaces):
+            for s in surface.on_line(x, v):
+                part = np.flatnonzero((s > 0.0) & (s < far) & (self._found[index, rays] < self._orders))
+                point = x[part] + s[part, None] * v[part]
+                r = np.linalg.norm(point, axis=1)
+                crossing = rays[part]
+                where = (crossing, index, self._found[index, crossing])
+                self.crossings.record(where, self._travelled[crossing] + s[part], r, point.T / r, (np.nan, np.nan))
+                self._found[index, crossing] += 1
         self._travelled[rays] += np.where(np.isfinite(far), far, 0.0)
 
 
@@ -142,16 +142,17 @@ def through_field(view: View, field: Field) -> FieldTraced:
     state[X], state[V] = start.T, direction.T
     state[V, inside] *= field.entry_speed(start[inside].T)
     system = FieldSystem(field)
-    watch = _FieldWatch(system, state, [Plane(normal) for normal in view.planes], view.orders, field.radius)
+    watch = _FieldWatch(system, state, surfaces_of(view), view.orders, field.radius)
     passing = np.flatnonzero(leave <= enter)
     watch.look_along(passing, position[passing], direction[passing], np.inf)
     watch.fate[passing], watch.direction[passing] = ESCAPED, direction[passing]
     watch.look_along(inside, position[inside], direction[inside], enter[inside])
     steps = np.zeros(len(position), dtype=np.int64)
     within = _Within(watch, inside, system, field.radius)
-    first = 0.1 * system.longest_step(state[:, inside])
+    driven: System = Unhurried(system, _NO_HORIZON, view.balls) if len(view.balls) else system
+    first = 0.1 * driven.longest_step(state[:, inside])
     with np.errstate(all="ignore"):
-        steps[inside] = march(system, state[:, inside], first, within, tolerance=view.tolerance, max_steps=_MAX_STEPS)[1]
+        steps[inside] = march(driven, state[:, inside], first, within, tolerance=view.tolerance, max_steps=_MAX_STEPS)[1]
     out = inside[watch.fate[inside] == ESCAPED]
     watch.look_along(out, watch.places[out], watch.direction[out], np.inf)
     traced = Traced(watch.fate, watch.direction, steps, np.ones(len(position)), l_z_of_straight_rays(view), watch.crossings)

@@ -14,8 +14,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..shapes import Float
-from .events import IN_PLANE
 from .hits import CAPTURED, ESCAPED, Crossings, Traced
+from .marching import surfaces_of
 from .observers import Place
 from .registry import View, twin
 
@@ -37,7 +37,7 @@ def screen_lens(view: View, lens_radius: float = 1.0, lens_shadow: float = 2.598
     fate = np.where(hidden, CAPTURED, ESCAPED).astype(np.int8)
     if view.at_infinity:
         direction = np.where(hidden[:, None], 0.0, _bent_by_thin_lens(view, b, lens_radius))
-        none = Crossings.none(len(b), len(view.planes), view.orders)
+        none = Crossings.none(len(b), view.surfaces, view.orders)
         return Traced(fate, direction, np.zeros(len(b), dtype=np.int64), np.ones(len(b)), l_z_of_straight_rays(view), none)
     traced = straight(replace(view, rays=_displaced(view, psi, lens_radius)), 0.0)
     return replace(traced, fate=fate, direction=np.where(hidden[:, None], 0.0, traced.direction), crossings=traced.crossings.without_rays(hidden))
@@ -50,15 +50,15 @@ def straight(view: View, radius: float) -> Traced:
     closest2 = np.maximum(np.einsum("ij,ij->i", position, position) - along**2, 0.0)
     hit = (along < 0.0) & (closest2 < radius**2)
     end = np.where(hit, -along - np.sqrt(np.maximum(radius**2 - closest2, 0.0)), np.inf)
-    crossings = Crossings.none(len(position), len(view.planes), view.orders)
-    for event, normal in enumerate(view.planes if view.orders else ()):
-        with np.errstate(divide="ignore", invalid="ignore"):  # without a ball a line may go through r = 0, where there is no n
-            s = _first_meeting(position, direction, normal)
-            part = np.flatnonzero(np.isfinite(s) & (s > 0.0) & (s <= end))
-            point = position[part] + s[part, None] * direction[part]
-            r = np.linalg.norm(point, axis=1)
-            n = point / r[:, None]
-            crossings.record((part, event, 0), s[part], r, n.T, _momentum(r, n, direction[part]))
+    crossings = Crossings.none(len(position), view.surfaces, view.orders)
+    for event, surface in enumerate(surfaces_of(view)):
+        for order, s in enumerate(surface.on_line(position, direction)[: view.orders]):
+            with np.errstate(divide="ignore", invalid="ignore"):  # without a ball a line may go through r = 0, where there is no n
+                part = np.flatnonzero(np.isfinite(s) & (s > 0.0) & (s <= end))
+                point = position[part] + s[part, None] * direction[part]
+                r = np.linalg.norm(point, axis=1)
+                n = point / r[:, None]
+                crossings.record((part, event, order), s[part], r, n.T, _momentum(r, n, direction[part]))
     fate = np.where(hit, CAPTURED, ESCAPED).astype(np.int8)
     zero = np.zeros(len(position), dtype=np.int64)
     return Traced(fate, np.where(hit[:, None], 0.0, direction), zero, np.ones(len(position)), l_z_of_straight_rays(view), crossings)
@@ -73,12 +73,6 @@ def l_z_of_straight_rays(view: View) -> Float[Array, " N"]:
     """L_z/E in M of photons on straight rays."""
     place, rays = view.place, view.rays
     return -rays[:, 0] * place.sin_theta if view.at_infinity else -2.0 * place.r * place.sin_theta * rays[:, 2]
-
-
-def _first_meeting(position: Array, direction: Array, normal: Array) -> Array:
-    """s (N,) at which each line meets the plane; not finite, or not above 0, where it does not: a camera in the plane does not meet its own place."""
-    height = position @ normal
-    return np.where(np.abs(height) > IN_PLANE * np.linalg.norm(position, axis=1), -height / (direction @ normal), np.nan)
 
 
 def _momentum(r: Array, n: Array, direction: Array) -> tuple[Array, Array]:

@@ -36,7 +36,8 @@ class View:
         observer: "static" or "zamo", as used.
         horizon: r in r_s of the metric's horizon; of Kerr's, with this spin, where a model has no such metric; 0 where there is no hole.
         planes: (P, 3) unit normals of the planes through the hole whose crossings are asked for; the equatorial one first.
-        orders: crossings kept of each plane.
+        balls: (B, 4) centre and radius, in r_s, of the spheres whose crossings are asked for, behind those of the planes.
+        orders: crossings kept of each plane and ball.
         tolerance: error allowed per step of the integrator.
     """
 
@@ -48,6 +49,12 @@ class View:
     planes: Float[Array, "P 3"]
     orders: int
     tolerance: float
+    balls: Float[Array, "B 4"] = field(default_factory=lambda: np.zeros((0, 4)))
+
+    @property
+    def surfaces(self) -> int:
+        """How many surfaces' crossings are asked for."""
+        return len(self.planes) + len(self.balls)
 
     @property
     def at_infinity(self) -> bool:

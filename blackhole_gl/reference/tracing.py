@@ -26,7 +26,7 @@ Array = np.ndarray
 
 def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
           observer: str = "static", directions: ArrayLike | None = None, screen: ArrayLike | None = None, planes: Sequence[Sequence[float]] = (),
-          orders: int = 3, orbit: str = "prograde", tolerance: float = 1e-12, **parameters: Any) -> ReferenceHits:
+          balls: Sequence[Sequence[float]] = (), orders: int = 3, orbit: str = "prograde", tolerance: float = 1e-12, **parameters: Any) -> ReferenceHits:
     """Traces rays backwards from the camera.
 
     Args:
@@ -39,7 +39,9 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         screen: (N, 2) alpha (right), beta (up) in M: instead of directions, when distance is inf.
         planes: normals (of any length) of further planes through the hole whose crossings are asked for; events 1, 2, ... of the hits, event 0
             being the equatorial plane. With tilted ones the march takes shorter steps and more time.
-        orders: number of crossings kept of each plane. orbit: "prograde" or "retrograde" emitters in the equatorial one.
+        balls: (x, y, z, radius) in r_s of spheres whose crossings are asked for, the last events of the hits. They are never jumped, which takes
+            more time still.
+        orders: number of crossings kept of each plane and ball. orbit: "prograde" or "retrograde" emitters in the equatorial one.
         tolerance: error allowed per step of the integrator; below 1e-13 rounding leaves nothing to gain.
         parameters: those that the model's twin declares, such as gravity_strength, by name.
 
@@ -51,6 +53,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     if unknown := sorted(set(parameters) - set(twin.parameters)):
         raise ValueError(f"the twin of {model} takes no {unknown[0]}; it takes {', '.join(twin.parameters) or 'no parameters'}")
     view = _view(twin, spin, Place.from_degrees(distance, inclination_deg, azimuth_deg), observer, directions, screen, planes, orders, tolerance)
+    view = replace(view, balls=np.array(balls, dtype=np.float64).reshape(-1, 4))
     batches = [view.rays[i:i + _BATCH] for i in range(0, len(view.rays), _BATCH)] or [view.rays]
     traced = joined([twin.trace(replace(view, rays=rays), **parameters) for rays in batches])
 

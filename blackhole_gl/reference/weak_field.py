@@ -42,7 +42,7 @@ def weak_field(view: View, second_order: bool = True) -> Traced:
         first = place.r * np.sin(psi)
         second = np.where(inward, first * np.cos(bend), place.r * np.sin(leaving))
     e_r = place.frame()[0]
-    crossings = Crossings.none(len(psi), len(view.planes), view.orders)
+    crossings = Crossings.none(len(psi), view.surfaces, view.orders)
     for event, normal in enumerate(view.planes):
         found = np.zeros(len(psi), dtype=int)
         for at in _meetings(normal, e_r, side):

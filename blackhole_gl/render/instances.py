@@ -16,7 +16,7 @@ from ..plan import Plan
 from ..scene import Instance, Scene, catalogue, met, surfaces
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field, Value, number_of
-from . import lamps, pictures
+from . import hierarchy, lamps, pictures
 
 _NUMBERS = ("float", "int", "switch", "choice")
 """Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the
@@ -62,8 +62,9 @@ def _has_surface(kind: PlugIn) -> bool:
 
 
 def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
-    """Name → number: what tells the kinds of a scene apart in a hit, and which are opaque."""
-    found: dict[str, int] = {}
+    """Name → number: what tells the kinds of a scene apart in a hit, which are opaque, and whether any tells its distance."""
+    kinds = list(kinds)
+    found = {"MEETINGS_BY_DISTANCE": int(any(kind.slot == "medium" or kind.traits.meets == "distance" for kind in kinds))}
     for number, kind in enumerate(kinds):
         name = f"{kind.slot}_{kind.key}".upper()
         found[name] = number
@@ -96,25 +97,30 @@ def _key_of(instance: Instance, kind: PlugIn, plan: Plan, time: float) -> tuple:
 
 
 class InstanceTables:
-    """The tables of the kinds in use, and that of the lamps."""
+    """The tables of the kinds in use, that of the lamps, and the hierarchy of boxes round all instances."""
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
         self._kept: dict[str, tuple[bytes, moderngl.Texture]] = {}
+        self._made: tuple[Plan, float, dict[str, moderngl.Texture]] | None = None
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
-        tables = {f"{kind.slot}_{kind.key}_table": _rows(kind, plan, time) for kind in used(plan.scene)}
-        return {name: self._texture(name, rows) for name, rows in {**tables, "lamps_table": lamps.rows(plan, time)}.items()}
+        if self._made is None or self._made[0] is not plan or self._made[1] != time and _anything_moves(plan):
+            rows = [_rows(kind, plan, time) for kind in used(plan.scene)]
+            tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(used(plan.scene), rows)}
+            tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": _nodes([table[:, 0] for table in rows])}
+            self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
+        return self._made[2]
 
     def release(self) -> None:
         """Gives the GL objects back."""
         for _, texture in self._kept.values():
             texture.release()
-        self._kept = {}
+        self._kept, self._made = {}, None
 
-    def _texture(self, name: str, rows: np.ndarray) -> moderngl.Texture:
-        data, size = rows.tobytes(), (rows.shape[1], rows.shape[0])
+    def _texture(self, name: str, values: np.ndarray) -> moderngl.Texture:
+        data, size = values.tobytes(), (values.shape[1], values.shape[0])
         before, texture = self._kept.get(name, (None, None))
         if texture is None or texture.size != size:
             if texture is not None:
@@ -125,6 +131,23 @@ class InstanceTables:
             texture.write(data)
         self._kept[name] = data, texture
         return texture
+
+
+def _anything_moves(plan: Plan) -> bool:
+    """Whether any table is another at another time, be it that a sphere turns."""
+    kinds = [(met.instances(plan.scene, slot), kinds) for slot, kinds in _catalogues()]
+    moving = (instance for instances, known in kinds for instance in instances if known[instance.kind].traits.moves)
+    return any(instance.values["path"] != "fixed" or instance.values["turn_rate"] != 0.0 for instance in moving)
+
+
+def _nodes(bounds: list[np.ndarray]) -> np.ndarray:
+    """The hierarchy's texels, from the bounding spheres (instances, 4) of each kind. A leaf holds 32 times the instance's number, and its kind's."""
+    spheres = np.concatenate(bounds).astype(float)
+    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(bounds)])
+    there = spheres[:, 3] > 0.0  # not lamps that are not seen
+    spheres, number = spheres[there], number[there]
+    made = hierarchy.build(spheres[:, :3] - spheres[:, 3:], spheres[:, :3] + spheres[:, 3:])
+    return made.texels(number[made.order[made.first]])
 
 
 def _width(item: Field) -> int:

@@ -140,11 +140,13 @@ class ThingTraits(MetTraits):
         opaque: whether nothing shines through it.
         surface: whether instances have the parameters of a surface too, which say how it looks.
         shines: whether instances have the parameters of a lamp too, and light falls from them on surfaces.
+        meets: what it tells of where it is: how far any place is from it, or where a straight piece of a ray's way meets it.
     """
 
     opaque: bool = True
     surface: bool = False
     shines: bool = False
+    meets: Literal["distance", "crossing"] = "distance"
 
 
 @dataclass(frozen=True)

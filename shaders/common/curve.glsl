@@ -31,16 +31,52 @@ vec4 path_place(Path path) {
     return vec4(rotate(path.place.xy, cos_sin(path.twist.x)), path.place.zw);
 }
 
-// Where the curve is at t in 0…1, homogeneous, and `rate`, how fast it changes there.
-vec4 curve_place(Curve curve, float t, out vec4 rate) {
+// Where it is in r_s.
+vec3 path_point(Path path) {
+    vec4 place = path_place(path);
+    return place.xyz / place.w;
+}
+
+// The curve at t in 0…1; its rates are by the curve's own parameter.
+Path curve_path(Curve curve, float t) {
     vec4 weights = hermite_weights(t), slopes = hermite_slopes(t);
     Path a = curve.a, b = curve.b;
-    vec4 place = weights.x * a.place + weights.z * b.place + curve.h * (weights.y * a.rate + weights.w * b.rate);
-    rate = slopes.x * a.place + slopes.z * b.place + curve.h * (slopes.y * a.rate + slopes.w * b.rate);
-    float twist = weights.x * a.twist.x + weights.z * b.twist.x + curve.h * (weights.y * a.twist.y + weights.w * b.twist.y);
-    float twist_rate = slopes.x * a.twist.x + slopes.z * b.twist.x + curve.h * (slopes.y * a.twist.y + slopes.w * b.twist.y);
-    vec2 turn = cos_sin(twist);
-    place.xy = rotate(place.xy, turn);
-    rate.xy = rotate(rate.xy, turn) + twist_rate * vec2(-place.y, place.x);
-    return place;
+    return Path(
+        weights.x * a.place + weights.z * b.place + curve.h * (weights.y * a.rate + weights.w * b.rate),
+        slopes.x * a.place + slopes.z * b.place + curve.h * (slopes.y * a.rate + slopes.w * b.rate),
+        vec2(weights.x * a.twist.x + weights.z * b.twist.x + curve.h * (weights.y * a.twist.y + weights.w * b.twist.y),
+             slopes.x * a.twist.x + slopes.z * b.twist.x + curve.h * (slopes.y * a.twist.y + slopes.w * b.twist.y)));
+}
+
+// How fast it moves, r_s by the parameter of its rates.
+vec3 path_velocity(Path path) {
+    vec3 x = path.place.xyz / path.place.w;
+    vec3 rate = (path.rate.xyz - x * path.rate.w) / path.place.w + path.twist.y * vec3(-x.y, x.x, 0.0);
+    return vec3(rotate(rate.xy, cos_sin(path.twist.x)), rate.z);
+}
+
+float beside(vec3 x, vec3 way) {
+    vec3 off = x - clamp(dot(x, way) / max(dot(way, way), 1e-30), 0.0, 1.0) * way;
+    return dot(off, off);
+}
+
+// How far the way between two places of a curve, `part` of its parameter apart, strays from the straight piece between them, at most; r_s. Before the twist it lies
+// between the control points of a rational cubic. A turn by φ moves what is ρ from the axis by less than ρφ²/8 more, and uneven steps of either along the
+// piece by as much as they are uneven.
+float path_stray(Path a, Path b, float part) {
+    vec4 first = a.place + part / 3.0 * a.rate, second = b.place - part / 3.0 * b.rate;
+    vec3 from = a.place.xyz / a.place.w, way = b.place.xyz / b.place.w - from;
+    vec3 p = first.xyz / first.w - from, q = second.xyz / second.w - from;
+    float stray = sqrt(max(beside(p, way), beside(q, way)));
+    float turn = abs(b.twist.x - a.twist.x), uneven = max(abs(part * a.twist.y), abs(part * b.twist.y)) - turn;
+    float size = length(from) + length(way) + stray;
+    stray += turn * (0.5 * length(way) + 0.125 * turn * size) + max(uneven, 0.0) / 3.0 * size;
+    return min(min(first.w, second.w), min(a.place.w, b.place.w)) > 0.0 ? stray : 1e30;
+}
+
+// Whether nothing within `reach` of the hole is met from a on, as the way from there to b leads outwards.
+bool path_leaves(Path a, Path b, float reach) {
+    float from2 = dot(a.place.xyz, a.place.xyz), to2 = dot(b.place.xyz, b.place.xyz);
+    bool outwards = b.place.w <= 0.0 || to2 * a.place.w * a.place.w >= from2 * b.place.w * b.place.w;
+    return outwards && from2 > reach * reach * a.place.w * a.place.w;
 }

@@ -66,51 +66,53 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #endif
 
 #if MEETINGS
-// One meeting within the step from `a` to a state h later. As with crossings the root on the curve is stepped to again.
-void add_meeting_found(Orbit orbit, State a, float h, Curve curve, Found found, inout Hits hits) {
-    float t = meeting_root(curve, found);
-    State there = march_step(orbit, a, h * t);
-    vec3 velocity, ignored;
-    curve_point(curve, t, velocity);
-    Curve here = Curve(ray_path(orbit, there), ray_path(orbit, there), 0.0);
-    vec3 x = curve_point(here, 0.0, ignored);
-    float off = distance_to(found.kind, found.index, x);
-    float probe = 1e-3 * max(abs(off), 1e-3);
-    float slope = (distance_to(found.kind, found.index, x + probe * normalize(velocity)) - off) / probe * length(velocity) / h;
-    float slip = clamp(-off / (abs(slope) < 1e-6 ? 1e30 : slope), -0.1 * h, 0.1 * h);
+// One meeting within the step from `a` along `curve`. As with crossings the place on the curve is stepped to again.
+void add_meeting_found(Orbit orbit, State a, Curve curve, Found found, inout Hits hits) {
+    State there = march_step(orbit, a, curve.h * meeting_root(curve, found));
+    Path path = ray_path(orbit, there);
+    vec3 velocity = path_velocity(path);
+    float speed = length(velocity);
+    float slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
 #ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
 #else
     there = state_drift(there, slip);
 #endif
-    vec4 place = path_place(ray_path(orbit, there));
-    bool enters = distance_to(found.kind, found.index, curve_point(curve, found.before, ignored)) >= 0.0;
-    add_meeting(hits, found.kind, found.index, enters, place.xyz / place.w, ray_momentum(orbit, there), is_opaque(found.kind));
+    add_meeting(hits, found.kind, found.index, found.enters, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), is_opaque(found.kind));
 }
 
-// All that is met in a step, crossings of the disk's plane too, in order. Returns whether the ray ends on something opaque.
-bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crossed, inout Hits hits) {
+// All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
+bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crossed, Found found, inout Hits hits) {
     Curve curve = Curve(ray_path(orbit, a), ray_path(orbit, b), h);
-    float crossing = 2.0, from = 0.0;
+    float crossing = 2.0;
 #if ORDERS > 0
     if (crossed) crossing = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
 #endif
+#if MEETINGS > 1
     for (int i = 0; i < 8; ++i) {
-        Found found = next_meeting(curve, from, min(end, 1.0));
+#endif
         bool none = found.kind == MEETING_NONE;
 #if ORDERS > 0
-        if (crossing <= 1.0 && (none || crossing < found.after)) {
+        if (crossing <= 1.0 && (none || crossing < found.at)) {
             find_crossing(orbit, a, b, h, end, hits);
             crossing = 2.0;
         }
 #endif
         if (none) return false;
-        add_meeting_found(orbit, a, h, curve, found, hits);
+        add_meeting_found(orbit, a, curve, found, hits);
         if (is_opaque(found.kind)) return true;
-        from = found.after;
+#if MEETINGS > 1
+        Path path = curve_path(curve, found.at);
+        float beyond = found.at + 2.0 * overstep(found.size, path_point(path)) / length(path_velocity(path));
+        found = next_meeting(curve, beyond, min(end, 1.0));
     }
+#endif
     return false;
 }
+#endif
+
+#if MEETINGS
+const int MOST_STEPS = 32767;
 #endif
 
 // A ray under way.
@@ -191,7 +193,7 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
         m.crossed = seeks && is_below(m.next) != is_below(m.s);
 #endif
 #if MEETINGS
-    m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next));
+        m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
 #endif
 #if MARCH_REPEATS
     } while (!march_pauses(m) && m.fate == UNRESOLVED && m.steps < plan_max_steps);
@@ -215,13 +217,19 @@ Hits trace_ray(RayStart start) {
 #ifndef RAY_MEETS_BEYOND
     if (place.w > 0.0) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.s), true, hits);
 #endif
-    // From event to event, whatever it is.
+    // From event to event, whatever it is. Between them steps are stopped for where something may be met.
     bool met = hits.fate == MET;
     float end;
     do {
-        march_on(orbit, ORDERS > 0, m);
-        end = march_end(orbit, m);
-        if (march_pauses(m) && !met) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, hits);
+        Found found;
+        for (int i = 0; i < MOST_STEPS; ++i) {
+            march_on(orbit, ORDERS > 0, m);
+            end = march_end(orbit, m);
+            found = NOTHING_FOUND;
+            if (m.near) found = next_meeting(Curve(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h), 0.0, min(end, 1.0));
+            if (m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps) break;
+        }
+        if (!met) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
     place = path_place(ray_path(orbit, m.next));

@@ -1,49 +1,29 @@
 // Where a ray meets the scene's things and media, in order along the curve that it takes; never by jumping.
 //
+// The curve is cut into pieces that are nearly straight, and each is tested against the boxes round all instances (common/hierarchy.glsl), wider by as much as
+// the way strays from the piece. An instance whose box is met is tested itself, once the piece strays by no more than a small share of its size.
+//
 // A kind of thing (shaders/things/<key>.glsl) or medium (shaders/media/<key>.glsl) tells
-//     float thing_<key>_distance(int i, vec3 x)   of instance i: signed, of two signs on the two sides of its surface, and in size at most how far x
-//                                                 is from it, in r_s; x in the world
-// So a ray may go on by that distance without meeting it, and has met it where the sign changes and the two sizes are no more than the way between.
-// Media have the same with medium_<key>_…; inside is negative, and outside positive.
+//     float thing_<key>_distance(int i, vec3 x)   of instance i: signed, of two signs on the two sides of its surface, and in size at most how far x is
+//                                                 from it, in r_s; x in the world
+// So one may go on along a piece by that distance without meeting it, and has met it where the sign changes and the two sizes are no more than the way between.
+// Media have the same with medium_<key>_…; inside is negative, and outside positive. A thing whose header says meets = "crossing" tells instead
+//     float thing_<key>_crossing(int i, vec3 x, vec3 y, out bool enters)   the part 0…1 of the straight piece from x to y at which instance i is first
+//                                                 met, and whether it is entered there; 2: not at all
+#include "common/hierarchy.glsl"
 
-uniform float meeting_reach;  // r_s from the hole, beyond which there is nothing to meet
+uniform float meeting_reach;        // r_s from the hole, beyond which there is nothing to meet
+uniform sampler2D meeting_nodes;    // the hierarchy of all instances; a leaf holds 32·index + kind
 
 const int MEETING_NONE = -1;
 
 #each thing : bool kind_$key(int kind) { return kind == THING_$KEY; }
 #each medium : bool kind_$key(int kind) { return kind == MEDIUM_$KEY; }
 
-// What was found on a piece of a curve.
-struct Found {
-    int kind, index;  // MEETING_NONE: nothing
-    float before, after;  // parts of the step between which the surface lies
-};
-
 float distance_to(int kind, int index, vec3 x) {
-#each thing : if (kind_$key(kind)) return thing_$key_distance(index, x);
+#each thing_by_distance : if (kind_$key(kind)) return thing_$key_distance(index, x);
 #each medium : if (kind_$key(kind)) return medium_$key_distance(index, x);
     return 1e30;
-}
-
-// How far x is from everything, at least.
-float clearance(vec3 x) {
-    float least = 1e30;
-#each thing : for (int i = 0; i < thing_$key_count; ++i) least = min(least, abs(thing_$key_distance(i, x)));
-#each medium : for (int i = 0; i < medium_$key_count; ++i) least = min(least, abs(medium_$key_distance(i, x)));
-    return least;
-}
-
-// Where on the straight way from x to y a surface of these distances lies, 0…1; 2 where there is none.
-float met_at(float from, float to, float way) {
-    bool met = (from < 0.0) != (to < 0.0) && abs(from) + abs(to) <= 1.001 * way + 1e-6;
-    return met ? abs(from) / max(abs(from) + abs(to), 1e-20) : 2.0;
-}
-
-// The first of all that lies between x and y, which are close together.
-void meet_between(vec3 x, vec3 y, inout Found found) {
-    float way = distance(x, y), first = 1.5, at;
-#each thing : for (int i = 0; i < thing_$key_count; ++i) { at = met_at(thing_$key_distance(i, x), thing_$key_distance(i, y), way); if (at < first) { first = at; found.kind = THING_$KEY; found.index = i; } }
-#each medium : for (int i = 0; i < medium_$key_count; ++i) { at = met_at(medium_$key_distance(i, x), medium_$key_distance(i, y), way); if (at < first) { first = at; found.kind = MEDIUM_$KEY; found.index = i; } }
 }
 
 bool is_opaque(int kind) {
@@ -51,69 +31,181 @@ bool is_opaque(int kind) {
     return false;
 }
 
-vec3 curve_point(Curve curve, float t, out vec3 velocity) {
-    vec4 rate, place = curve_place(curve, t, rate);
-    vec3 x = place.xyz / place.w;
-    velocity = (rate.xyz - x * rate.w) / place.w;
-    return x;
+bool tells_distance(int kind) {
+#each thing_by_crossing : if (kind_$key(kind)) return false;
+    return true;
 }
 
 const int MOST_PROBES = 256;
-const float OVERSTEP = 5e-4;   // r_s beyond the clearance: what makes a probe pass through the surface it comes to; things are thicker
-const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far away, left out there: a thousand times as far as its other end
+const int MOST_PIECES = 256;
+// How far a piece that a thing is tested against may be from the way, which moves its outline by as much: a share of its size, and never more than so many r_s.
+const float STRAY_SHARE = 1e-3, MOST_STRAY = 5e-3;
 
-// Whether anything may be met on the step, looked at by its ends: not on a way that leads out from beyond everything.
-bool may_meet(Path a, Path b) {
-    if (a.place.w <= 0.0) return true;
-    vec4 start = path_place(a), end = path_place(b);
-    vec3 from = start.xyz / start.w;
-    bool outwards = end.w <= 0.0 || dot(end.xyz, end.xyz) > dot(from, from) * end.w * end.w;
-    if (outwards && dot(from, from) > meeting_reach * meeting_reach) return false;
-    if (end.w <= 0.0) return true;
-    return clearance(from) <= 1.5 * distance(from, end.xyz / end.w) + OVERSTEP;
+float stray_allowed(float size) {
+    return min(STRAY_SHARE * size, MOST_STRAY);
 }
 
-// The first meeting on the curve between the parts `from` and `to`.
-Found next_meeting(Curve curve, float from, float to) {
-    Found found = Found(MEETING_NONE, 0, from, from);
-    float t = curve.a.place.w <= 0.0 ? max(from, FAR_END) : from;
-    float last = curve.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
-    float most = 1.0;
-    vec3 velocity, x = curve_point(curve, t, velocity);
-    for (int probe = 0; probe < MOST_PROBES; ++probe) {
-        if (t >= last) break;
-        float clear = clearance(x);
-        bool gone = dot(x, velocity) > 0.0 && dot(x, x) > meeting_reach * meeting_reach;
-        float next = gone ? last : min(t + min((0.9 * clear + OVERSTEP) / max(length(velocity), 1e-20), most), last);
-        vec3 onward, y = curve_point(curve, next, onward);
-        float way = distance(x, y);
-        if (!gone && way > clear + 2.0 * OVERSTEP) {
-            most = 0.8 * (next - t) * (clear + OVERSTEP) / way;  // the curve runs faster than it did at t: not so far
-            continue;
+// What a step passes through the surface that it comes to by, in r_s, of a thing of that size at x: less than things are thick, more than x is rounded by.
+float overstep(float size, vec3 x) {
+    return min(5e-4, 2e-4 * size) + 1e-6 * length(x);
+}
+
+// The part of the piece from x to y at which what tells its distance is met: by steps as long as that.
+float traced_part(int kind, int index, float size, vec3 x, vec3 y, out bool enters) {
+    float way = distance(x, y), over = overstep(size, x), part = 2.0;
+    float s = 0.0, before = distance_to(kind, index, x);
+    vec3 along = (y - x) / max(way, 1e-20);
+    enters = before >= 0.0;
+    for (int i = 0; i < MOST_PROBES; ++i) {
+        float next = min(s + 0.9 * abs(before) + over, way), after = distance_to(kind, index, x + next * along);
+        bool met = (after < 0.0) != (before < 0.0) && abs(before) + abs(after) <= 1.001 * (next - s) + 1e-6;
+        if (met) {
+            part = mix(s, next, abs(before) / max(abs(before) + abs(after), 1e-20)) / max(way, 1e-20);
+            break;
         }
-        if (!gone) meet_between(x, y, found);
-        found.before = t;
-        found.after = next;
-        if (found.kind != MEETING_NONE) break;
-        most = 1.0;
-        t = next;
-        x = y;
-        velocity = onward;
+        if (next >= way) break;
+        s = next;
+        before = after;
+    }
+    return part;
+}
+
+// The part of the piece at which the instance is first met, 0…1; 2: not at all.
+float met_part(int kind, int index, float size, vec3 x, vec3 y, out bool enters) {
+    float part = 2.0;
+    enters = true;
+#if MEETINGS_BY_DISTANCE
+    if (tells_distance(kind)) part = traced_part(kind, index, size, x, y, enters);
+#endif
+#each thing_by_crossing : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, enters);
+    return part;
+}
+
+// What was found.
+struct Found {
+    int kind, index;  // MEETING_NONE: nothing
+    float at;         // where: part of a piece, or parameter of a curve
+    float size;       // half the width of what was found, r_s
+    bool enters;
+};
+
+const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
+
+// The first of all that the piece from x to y meets. `allowed` is how far the way may stray from it: where that is less than `stray`, the piece is too long for what
+// it is near to, and nothing else is told.
+Found first_on_piece(vec3 x, vec3 y, float stray, out float allowed) {
+    Found found = NOTHING_FOUND;
+    Piece piece = piece_of(x, y, stray);
+    int number = stray < 1e29 ? 0 : -1;
+    allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
+    while (number >= 0) {
+        Node node = fetch_node(meeting_nodes, number);
+        bool met = meets_box(piece, node, min(found.at, 1.0));
+        if (met && is_leaf(node)) {
+            float size = half_width(node);
+            allowed = min(allowed, max(stray_allowed(size), piece.pad - stray));  // no finer than single precision
+            int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
+            bool enters;
+            float part = met_part(kind, index, size, x, y, enters);
+            if (part < found.at) found = Found(kind, index, part, size, enters);
+        }
+        number = stray > allowed ? -1 : next_node(node, number, met);
     }
     return found;
 }
 
-// The part of the step at which the surface is met: false position on the curve.
+// Whether anything may be met on the way from a to b, one step of the march of length h.
+bool may_meet(Path a, Path b, float h) {
+    if (path_leaves(a, b, meeting_reach)) return false;
+    if (min(a.place.w, b.place.w) <= 0.0) return true;
+    float stray = path_stray(a, b, h);
+    vec3 x = path_point(a), y = path_point(b);
+    Piece piece = piece_of(x, y, stray);
+    bool near = stray > 1e29;
+    int number = near ? -1 : 0;
+    while (number >= 0) {
+        Node node = fetch_node(meeting_nodes, number);
+        bool met = meets_box(piece, node, 1.0);
+        near = met && is_leaf(node);
+#if MEETINGS_BY_DISTANCE
+        int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
+        if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);
+#endif
+        number = near ? -1 : next_node(node, number, met);
+    }
+    return near;
+}
+
+// The parameter between `from` and `to` at which the curve is beside x: false position on the way along `onward`.
+float parameter_beside(Curve curve, float from, float to, vec3 x, vec3 onward) {
+    float low = from, high = to, t = from;
+    float below = dot(path_point(curve_path(curve, from)) - x, onward), above = dot(path_point(curve_path(curve, to)) - x, onward);
+    for (int i = 0; i < 4; ++i) {
+        t = mix(low, high, clamp(below / min(below - above, -1e-20), 0.0, 1.0));
+        float here = dot(path_point(curve_path(curve, t)) - x, onward);
+        if (here < 0.0) { low = t; below = here; above *= 0.7; } else { high = t; above = here; below *= 0.7; }
+    }
+    return t;
+}
+
+const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far away, left out there: a thousand times as far as its other end
+
+// The first meeting on the curve between its parameters `from` and `to`.
+Found next_meeting(Curve curve, float from, float to) {
+    float t = curve.a.place.w <= 0.0 ? max(from, FAR_END) : from;
+    float last = curve.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
+    Path here = curve_path(curve, t);
+    vec3 x = path_point(here);
+    float part = last - t;
+    Found found = NOTHING_FOUND;
+    for (int i = 0; i < MOST_PIECES; ++i) {
+        if (t >= last) break;
+        float next = min(t + part, last), allowed;
+        Path there = curve_path(curve, next);
+        vec3 y = path_point(there);
+        float stray = path_stray(here, there, next - t);
+        found = first_on_piece(x, y, stray, allowed);
+        if (stray > allowed) {
+            found = NOTHING_FOUND;
+            part = (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
+            continue;
+        }
+        if (found.kind != MEETING_NONE) {
+            found.at = parameter_beside(curve, t, next, mix(x, y, found.at), normalize(y - x));
+            break;
+        }
+        if (path_leaves(here, there, meeting_reach)) break;
+        t = next;
+        here = there;
+        x = y;
+        part *= 2.0;
+    }
+    return found;
+}
+
+// How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s.
+float beyond_surface(Found found, vec3 x, vec3 onward) {
+    float most = 4.0 * stray_allowed(found.size) + 1e-5 * length(x), part = 2.0;
+#if MEETINGS_BY_DISTANCE
+    if (tells_distance(found.kind)) {
+        float off = distance_to(found.kind, found.index, x), probe = 1e-3 * min(found.size, 1.0) + 1e-5 * length(x);
+        float slope = (distance_to(found.kind, found.index, x + probe * onward) - off) / probe;
+        part = 0.5 + 0.5 * clamp(-off / (abs(slope) < 1e-6 ? 1e30 : slope), -most, most) / most;
+    }
+#endif
+    bool ignored;
+#each thing_by_crossing : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
+    return part <= 1.0 ? (2.0 * part - 1.0) * most : 0.0;
+}
+
+// The parameter of the curve at which it meets the surface of what was found, from one close to it: Newton's method.
 float meeting_root(Curve curve, Found found) {
-    vec3 ignored;
-    float low = found.before, high = found.after;
-    float below = distance_to(found.kind, found.index, curve_point(curve, low, ignored));
-    float above = distance_to(found.kind, found.index, curve_point(curve, high, ignored));
-    float t = low;
-    for (int i = 0; i < 5; ++i) {
-        t = mix(low, high, clamp(below / (below - above), 0.02, 0.98));
-        float here = distance_to(found.kind, found.index, curve_point(curve, t, ignored));
-        if ((here < 0.0) == (below < 0.0)) { low = t; below = here; } else { high = t; above = here; }
+    float t = found.at;
+    for (int i = 0; i < 3; ++i) {
+        Path here = curve_path(curve, t);
+        vec3 velocity = path_velocity(here);
+        float speed = length(velocity);
+        t += beyond_surface(found, path_point(here), velocity / speed) / speed;
     }
     return t;
 }
@@ -126,26 +218,24 @@ void meet_at_an_end(vec3 x, Momentum momentum, bool begins, inout Hits hits) {
 // All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
 // `point`. Returns whether the ray ends on something opaque.
 bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
-    // From (x, 1) to infinity in the direction v is one straight step between homogeneous places: s = size t/(1 − t).
-    float size = max(length(x), 1.0);
-    vec4 a = vec4(x, 1.0), b = vec4(size * v, 0.0);
-    Curve line = Curve(Path(a, b - a, vec2(0.0)), Path(b, b - a, vec2(0.0)), 1.0);
-    float from = 0.0, to = s_end < 1e29 ? s_end / (size + s_end) : 1.0;
+    float along = -dot(x, v), beside2 = dot(x, x) - along * along;
+    float leaves = along + sqrt(max(meeting_reach * meeting_reach - beside2, 0.0));  // what lies beyond is out of reach
+    float from = 0.0, last = max(min(s_end, leaves), 0.0);
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
-        Found found = next_meeting(line, from, to);
-        bool none = found.kind == MEETING_NONE;
-        vec3 ignored, y = curve_point(line, none ? from : meeting_root(line, found), ignored);
-        if (crosses && (none || s_crossing < distance(y, x))) {
+        float ignored;
+        Found found = first_on_piece(x + from * v, x + last * v, 0.0, ignored);
+        bool none = found.kind == MEETING_NONE || from >= last;
+        float s = mix(from, last, found.at);
+        if (crosses && (none || s_crossing < s)) {
             add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
             crosses = false;
         }
         if (none) return false;
-        vec3 before = curve_point(line, found.before, ignored);
-        bool enters = distance_to(found.kind, found.index, before) >= 0.0;
-        add_meeting(hits, found.kind, found.index, enters, y, momentum_at(y, v), is_opaque(found.kind));
+        vec3 y = x + s * v;
+        add_meeting(hits, found.kind, found.index, found.enters, y, momentum_at(y, v), is_opaque(found.kind));
         if (is_opaque(found.kind)) return true;
-        from = found.after;
+        from = s + 2.0 * overstep(found.size, y);
     }
     return false;
 }

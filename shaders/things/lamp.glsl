@@ -7,6 +7,7 @@ rank = 3
 moves = true
 round = true
 shines = true
+meets = "crossing"
 reach = ["radius"]
 
 [parameters.radius]
@@ -20,10 +21,11 @@ default = 2.0
 range = [0.0, 1000.0]
 help = "How bright the ball itself looks."
 ---*/
+#include "common/sphere.glsl"
 
-float thing_lamp_distance(int i, vec3 x) {
+float thing_lamp_crossing(int i, vec3 x, vec3 y, out bool enters) {
     vec4 bound = thing_lamp_bound(i);
-    return distance(x, bound.xyz) - bound.w;
+    return sphere_crossing(bound.xyz, bound.w, x, y, enters);
 }
 
 Light thing_lamp_light(int i, Sight sight) {

@@ -7,6 +7,7 @@ rank = 1
 moves = true
 round = true
 surface = true
+meets = "crossing"
 reach = ["radius"]
 
 [parameters.radius]
@@ -19,10 +20,11 @@ help = "Its radius."
 #include "common/rotation.glsl"
 #include "common/colour.glsl"
 #include "common/surface.glsl"
+#include "common/sphere.glsl"
 
-float thing_sphere_distance(int i, vec3 x) {
+float thing_sphere_crossing(int i, vec3 x, vec3 y, out bool enters) {
     vec4 bound = thing_sphere_bound(i);
-    return distance(x, bound.xyz) - bound.w;
+    return sphere_crossing(bound.xyz, bound.w, x, y, enters);
 }
 
 // Longitude and latitude at `arm` from the centre, in its own axes, and their changes: no angle is taken of a difference, so that there is no seam.

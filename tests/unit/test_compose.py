@@ -117,6 +117,7 @@ def test_a_ray_plug_in_that_lacks_a_function_that_others_call_is_named(shaders, 
     assert (caught.value.file, caught.value.line) == (str(tmp_path / "own" / f"{at_fault}.glsl"), 1)
 
 
+NOTHING_MET = {name: [] for name in ("thing", "thing_by_distance", "thing_by_crossing", "medium")}
 SHIPPED = {"ray_model": "ray_models/schwarzschild_binet.glsl", "integrator": "integrators/rk4.glsl", "step_control": "step_controls/radius.glsl"}
 
 
@@ -136,7 +137,7 @@ def test_each_slot_of_a_picture_knows_its_functions(tmp_path, slot, path, functi
         (tmp_path / "mine.glsl").write_text(text, encoding="utf-8")
         chosen = {name: ["mine.glsl" if name == slot else file] for name, file in {**SHIPPED, "sky": ""}.items()}
         switches = {"MARCHED": int("ray_models/flat.glsl" != path), "ORDERS": 3}
-        return compose((shaders_dir(), tmp_path), main, chosen={**chosen, "thing": [], "medium": []}, switches=switches)
+        return compose((shaders_dir(), tmp_path), main, chosen={**chosen, **NOTHING_MET}, switches=switches)
 
     whole = (shaders_dir() / path).read_text(encoding="utf-8")
     made(whole)

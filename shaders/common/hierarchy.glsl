@@ -1,0 +1,47 @@
+// Bounding volume hierarchies (blackhole_gl/render/hierarchy.py), walked without a stack: a box that is met leads to the next node, one that is missed beyond all
+// that lies in it. Two texels a node: low and the node beyond; high and what a leaf holds, −1 for inner nodes.
+
+const int ROW_BITS = 8;  // nodes in a row of the texture, as a power of two
+
+// A straight piece from x, as boxes are tested against it.
+struct Piece {
+    vec3 x, inverse;  // 1/(y − x)
+    float pad;        // boxes are wider by it
+};
+
+struct Node {
+    vec4 low, high;
+};
+
+Piece piece_of(vec3 x, vec3 y, float stray) {
+    vec3 way = y - x;
+    way = mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
+    vec3 size = max(abs(x), abs(y));
+    return Piece(x, 1.0 / way, stray + 1e-6 * max(max(size.x, size.y), size.z));  // and what rounding takes
+}
+
+Node fetch_node(sampler2D nodes, int node) {
+    ivec2 place = ivec2(2 * (node & ((1 << ROW_BITS) - 1)), node >> ROW_BITS);
+    return Node(texelFetch(nodes, place, 0), texelFetch(nodes, place + ivec2(1, 0), 0));
+}
+
+// Whether the piece meets the node's box before its part `most`.
+bool meets_box(Piece piece, Node node, float most) {
+    vec3 a = (node.low.xyz - piece.pad - piece.x) * piece.inverse, b = (node.high.xyz + piece.pad - piece.x) * piece.inverse;
+    vec3 into = min(a, b), out_of = max(a, b);
+    return max(max(into.x, into.y), max(into.z, 0.0)) <= min(min(out_of.x, out_of.y), min(out_of.z, most));
+}
+
+bool is_leaf(Node node) {
+    return node.high.w >= 0.0;
+}
+
+float half_width(Node node) {
+    vec3 sides = node.high.xyz - node.low.xyz;
+    return 0.5 * max(max(sides.x, sides.y), sides.z);
+}
+
+// Where the walk goes on from `here`, the node with the number `number`; −1 at its end.
+int next_node(Node here, int number, bool met) {
+    return met && !is_leaf(here) ? number + 1 : int(here.low.w);
+}

@@ -1,0 +1,11 @@
+// The part 0…1 of the straight piece from x to y at which the sphere about `middle` is first met, and whether it is entered there; 2: not at all.
+float sphere_crossing(vec3 middle, float radius, vec3 x, vec3 y, out bool enters) {
+    vec3 way = y - x, arm = x - middle;
+    float way2 = max(dot(way, way), 1e-30), nearest = -dot(arm, way) / way2;
+    vec3 aside = arm + nearest * way;  // the difference before the squares
+    float deep = (radius - length(aside)) * (radius + length(aside));
+    float chord = sqrt(max(deep, 0.0) / way2);
+    enters = dot(arm, arm) >= radius * radius;
+    float part = enters ? nearest - chord : nearest + chord;
+    return deep > 0.0 && part >= 0.0 && part <= 1.0 ? part : 2.0;
+}
