@@ -20,6 +20,7 @@ from ..resources import shaders_dir, user_shaders_dir
 from ..scene import catalogue, met
 from . import instances, uniforms
 from .inputs import FrameInputs, UniformBuffers
+from .squares import SquareBuffer, Squares
 
 MOST_KEPT = 64
 """Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as
@@ -61,14 +62,16 @@ class _Structure:
 
 @dataclass(frozen=True, eq=False)
 class Compiled:
-    """A compiled program with the triangle that covers its target.
+    """A compiled program with the triangle that covers its target, and squares of it.
 
     Attributes:
         serial: a number that no other program of this process has, for the keys of what was drawn by it.
+        squares: points at what the buffer of squares holds.
     """
 
     serial: int
     triangle: moderngl.VertexArray
+    squares: moderngl.VertexArray
 
     @property
     def program(self) -> moderngl.Program:
@@ -79,6 +82,7 @@ class Compiled:
         """Gives the GL objects back."""
         program = self.program  # which a released triangle no longer knows
         self.triangle.release()
+        self.squares.release()
         program.release()
 
 
@@ -94,6 +98,7 @@ class Draw:
     compiled: Compiled
     inputs: FrameInputs
     _buffers: UniformBuffers
+    _squares: SquareBuffer
 
     @property
     def serial(self) -> int:
@@ -121,6 +126,11 @@ class Draw:
         """Draws the triangle that covers the bound target."""
         self._buffers.bind(self.inputs)
         self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def draw_squares(self, squares: Squares) -> None:
+        """Draws `squares` of the bound target alone."""
+        self._buffers.bind(self.inputs)
+        self._squares.draw(self.compiled.squares, squares)
 
     def draw_points(self, count: int) -> None:
         """Draws `count` points, by a program whose vertex shader places them."""
@@ -167,7 +177,7 @@ class Programs:
         self.errors: list[ShaderError] = []
         self.compiled = 0
         self.deadline = math.inf
-        self._buffers = UniformBuffers(ctx)
+        self._buffers, self._squares = UniformBuffers(ctx), SquareBuffer(ctx)
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
         self._asked: tuple[Plan, _Structure] | None = None
@@ -189,7 +199,7 @@ class Programs:
             if len(self._composed) > _MOST_RECIPES:
                 self._composed.popitem(last=False)
         self._composed.move_to_end(recipe)
-        return Draw(self._compiled(self._composed[recipe], by=self.deadline), inputs, self._buffers)
+        return Draw(self._compiled(self._composed[recipe], by=self.deadline), inputs, self._buffers, self._squares)
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -197,6 +207,7 @@ class Programs:
             compiled.release()
         self._kept.clear()
         self._buffers.release()
+        self._squares.release()
 
     def reload(self) -> list[ShaderError]:
         """Looks at the files' times; composes and compiles anew what changed. Returns the mistakes that stand."""
@@ -264,7 +275,7 @@ class Programs:
             if isinstance(member, moderngl.UniformBlock):
                 member.binding = block.binding
         self.compiled += 1
-        return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []))
+        return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []), self._squares.array(program))
 
     def _times(self) -> tuple:
         files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert") and not _leads_nowhere(path))

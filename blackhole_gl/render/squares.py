@@ -1,0 +1,70 @@
+"""Squares of a picture that are drawn alone, as points: one draw, whatever parts of the picture they make up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from ..shapes import Float, Int
+
+_POINT = 12  # bytes
+
+
+@dataclass(frozen=True, eq=False)
+class Squares:
+    """Squares of ``side``² pixels each.
+
+    Attributes:
+        side: in pixels.
+        places: column and row of each, counted in sides from the bottom left, int (N, 2).
+        points: as shaders/fullscreen.vert takes them, float32 (N, 3).
+    """
+
+    side: int
+    places: Int[np.ndarray, "squares 2"]
+    points: Float[np.ndarray, "squares 3"]
+
+    @classmethod
+    def of(cls, places: Int[np.ndarray, "squares 2"], side: int, size: tuple[int, int]) -> Squares:
+        """The squares at `places` of a picture of `size` pixels, at least `side` each way. Those that its upper or right edge cuts are moved inside, as a point
+        whose middle lies outside is not drawn at all."""
+        corner = np.minimum(side * places, np.array(size) - side)
+        middle = (2.0 * corner + side) / np.array(size) - 1.0
+        return cls(side, places, np.column_stack([middle, np.full(len(places), side)]).astype(np.float32))
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    def holds(self, pixels: Int[np.ndarray, "pixels 2"], size: tuple[int, int]) -> np.ndarray:
+        """Which of `pixels`, column and row each, lie in them, bool (N,)."""
+        marked = np.zeros((-(-size[1] // self.side), -(-size[0] // self.side)), bool)
+        marked[self.places[:, 1], self.places[:, 0]] = True
+        return marked[pixels[:, 1] // self.side, pixels[:, 0] // self.side]
+
+
+class SquareBuffer:
+    """The points of the squares that are drawn next, for all programs of a context."""
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self._buffer = ctx.buffer(reserve=_POINT, dynamic=True)
+
+    def array(self, program: moderngl.Program) -> moderngl.VertexArray:
+        """What `draw` draws `program` with; of a program that takes no squares, nothing that can be."""
+        return self._ctx.vertex_array(program, [(self._buffer, "3f", "square")] if "square" in program else [])
+
+    def draw(self, array: moderngl.VertexArray, squares: Squares) -> None:
+        """Draws `squares` of the bound target."""
+        data = squares.points.tobytes()
+        if len(data) > self._buffer.size:
+            self._buffer.orphan(2 * len(data))
+        self._buffer.write(data)
+        self._ctx.enable(moderngl.PROGRAM_POINT_SIZE)
+        array.render(moderngl.POINTS, vertices=len(squares))
+        self._ctx.disable(moderngl.PROGRAM_POINT_SIZE)
+
+    def release(self) -> None:
+        """Gives the GL object back."""
+        self._buffer.release()
