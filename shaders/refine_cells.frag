@@ -2,7 +2,7 @@
 // Nodes → which cells of the coarse grid can be interpolated, and how (common/hit_cells.glsl), and the class of their pixels.
 //
 // A cell may be interpolated where its corners and the nodes around them have one fate, where no crossing that matters comes or goes among
-// them, and where nothing bends too much for the tolerance (refine_nodes.frag).
+// them, and where nothing bends too much for the tolerance (refine_nodes.frag); and where no thing or medium can be seen (reach_cells.frag).
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -10,6 +10,9 @@
 #include "common/node_kinds.glsl"
 
 uniform usampler2D kinds;
+#if MEETINGS
+uniform sampler2D reached; // 1 for each square of REACH_STEP² pixels that may show a thing
+#endif
 
 layout(location = 0) out uint cell_out;
 layout(location = 1) out float class_out;
@@ -48,8 +51,11 @@ void main() {
     // The hole's own cells are always traced: from far away it can be smaller than a cell.
     vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
+#if MEETINGS
+    trusted = trusted && texelFetch(reached, ivec2(gl_FragCoord.xy) * REFINE_STEP / REACH_STEP, 0).r == 0.0;
+#endif
     cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
     int shared_class = disk ? PIXEL_MATTER : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
-    class_out = class_depth(trusted ? shared_class : PIXEL_OWN_RAY);
+    class_out = class_depth(trusted ? shared_class : MEETINGS > 0 ? PIXEL_THING : PIXEL_OWN_RAY);
 }

@@ -1,8 +1,9 @@
 #version 330 core
 // Classes of the cells → depth: what a pixel of a refined map will need. A cell's pixels share one class, which may be wider than a pixel needs.
-// PIXEL_OWN_RAY: trace.frag is still to draw it, and the depth test keeps it from all others. PIXEL_FLAT_SKY: read with HIT_MAP_REFINED = 2.
+// PIXEL_OWN_RAY, or PIXEL_THING in a scene with things: trace.frag is still to draw it, and the depth test keeps it from all others. PIXEL_FLAT_SKY: read with HIT_MAP_REFINED = 2.
 #defines
 #blocks
+#include "common/constants.glsl"
 
 uniform sampler2D cell_classes; // eight bits, the nearest: docs/llvmpipe.md, texels
 uniform vec2 pixels_to_cells;   // 1/(REFINE_STEP·cells)
@@ -10,5 +11,6 @@ uniform float all_traced;       // 1 where every pixel now has a ray of its own,
 
 void main() {
     float found = textureLod(cell_classes, gl_FragCoord.xy * pixels_to_cells, 0.0).r;
-    gl_FragDepth = all_traced > 0.0 ? min(found, 1.0 - found) : found;
+    bool is_thing = found > class_depth(PIXEL_THING) - 0.05;
+    gl_FragDepth = all_traced > 0.0 && !is_thing ? min(found, 1.0 - found) : found;
 }

@@ -2,8 +2,9 @@
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
 // do not need them. (A branch would not: docs/llvmpipe.md.)
 //
-// PIXEL_MATTER, PIXEL_SKY or PIXEL_NEITHER, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the sky nearer
-// than another, one draw each. The few that cross the disk and are not of the sky are black in it.
+// PIXEL_MATTER, PIXEL_SKY, PIXEL_NEITHER or PIXEL_THING, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the
+// sky nearer than another, one draw each, and those that show a thing or a medium farther than a third. The few that cross the disk and are not of the sky are
+// black in it.
 //
 // And marks by which edges are found, as that takes the same texels.
 #defines
@@ -26,8 +27,9 @@ void main() {
     for (int n = 0; n < ORDERS; ++n)
         disk = may_be_covered(crossing_of(hits.crossing[n], hits.fate)) || disk;
 #endif
+    bool thing = false;
 #if MEETINGS
-    disk = disk || hits.meeting[0].kind >= 0;
+    thing = hits.meeting[0].kind >= 0;
 #endif
-    gl_FragDepth = class_depth(disk ? PIXEL_MATTER : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
+    gl_FragDepth = class_depth(thing ? PIXEL_THING : disk ? PIXEL_MATTER : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
 }

@@ -174,8 +174,9 @@ class _Reader:
         if not users:
             return
         compiled = [(text, lines[number][1][0]) for number, text in numbered_live_lines((text for text, _ in lines), switches)]
-        given = set(_GIVEN.findall("\n".join(text for text, _ in compiled)))
-        asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users}
+        whole = "\n".join(text for text, _ in compiled)
+        given = set(_GIVEN.findall(whole))
+        asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users and function in whole}  # else its line is left out
         for slot, names in _OF_SLOT.items():
             for plug_in in users.intersection(self._chosen.get(slot, ())):
                 own = self._found(plug_in)[1]

@@ -21,12 +21,15 @@ class PixelClass(IntEnum):
     OWN_RAY = 0
     """A ray of its own: the trace pass is still to draw it, and it may need anything."""
     MATTER = 1
-    """May show the disk, a thing or a medium, and may be of the sky."""
+    """May show the disk, but no thing or medium, and may be of the sky."""
     SKY = 2
     """Of the sky, with nothing before it."""
     NEITHER = 4
     FLAT_SKY = 7
     """As SKY, and directions may be interpolated linearly: nothing else is read. With `SKY` it adds up to 9, so that one minus its depth is that of SKY."""
+    THING = 8
+    """May show a thing or a medium, and may need anything. Where a scene has any, pixels with a ray of their own that the trace pass is still to draw are of
+    this class instead of `OWN_RAY`."""
 
     @property
     def depth(self) -> float:

@@ -16,6 +16,12 @@ from .record import MERIDIAN, WORLD, Plan
 # rare chance, and 3 turns reach that: each turn takes a factor e^{2π} of distance.
 SPARE_TURNS = 3.0
 
+# Coarse rays that tell where things can be seen are given up after half a turn more than they need to pass the hole; beside those anything may be seen.
+_REACH_TURNS = 0.5
+
+# More steps would cost as much as what they spare.
+_MOST_REACH_STEPS = 64
+
 # Beyond this radius (r_s, times the gravity strength) an outward ray is finished in closed form; see common/central_orbit.glsl.
 # Models whose closed form is a first-order one state a larger march_bound in their header.
 MARCH_BOUND = 6.0
@@ -55,8 +61,8 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         integrator, control = catalogue.plug_ins("integrator")[scene.rays.integrator], catalogue.plug_ins("step_control")[scene.rays.step_control]
         max_steps = scene.rays.max_steps
         stretch = max(1.0, _steps_needed(scene, model, control) / max_steps)
-    reach = met.reach(scene)
-    refine, why_refine = _refines(scene, model, chosen)
+    reach, reach_steps = met.reach(scene), _reach_steps(scene, model, control)
+    refine, why_refine = _refines(scene, model, chosen, reach_steps)
     reasons.append(why_refine)
     inner, outer = _disk_radii(scene, where)
     return Plan(
@@ -74,6 +80,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         disk_outer=outer,
         meetings=_meetings(scene),
         reach=reach,
+        reach_steps=reach_steps,
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) else WORLD,
         reasons=tuple(reasons),
@@ -193,7 +200,7 @@ def refine_px(scene: Scene) -> float:
     return _REFINE_SHARE * scene.rays.tolerance
 
 
-def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, str]:
+def _refines(scene: Scene, model: PlugIn, made: choice.Choice, reach_steps: int) -> tuple[bool, str]:
     """Whether the hit map of `scene`, which leaves nothing open, is refined while the camera moves, and why.
 
     The method stays that of the picture at rest, though a coarser one might do for the camera's way: another method would be another
@@ -201,8 +208,8 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice) -> tuple[bool, st
     """
     if model.traits.kind == "closed" and (model.traits.space_time == "flat" or not model.traits.exact):
         return False, "moving: a ray for every pixel, as it costs no more than interpolating"
-    if not met.is_empty(scene):
-        return False, "moving: a ray for every pixel, as things and media are not interpolated"
+    if not met.is_empty(scene) and not reach_steps:
+        return False, "moving: a ray for every pixel, as it is not known where things and media can be seen"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
     found = choice.refinement(scene)
@@ -239,8 +246,18 @@ def _march_bound(scene: Scene, model: PlugIn) -> float:
     return (model.traits.march_bound or MARCH_BOUND) * max(1.0, scene.hole.gravity_strength)
 
 
-def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
-    """Steps of the asked length that take a ray in from the camera, `SPARE_TURNS` round the hole, and out again.
+def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
+    """`Plan.reach_steps`. Neighbours have to take steps of like length, and things to be bound to a place beside the hole."""
+    if met.is_empty(scene) or control is None or control.traits.adapts or model.traits.field or math.isinf(scene.camera.distance):
+        return 0
+    if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
+        return 0
+    steps = math.ceil(_steps_needed(scene, model, control, _REACH_TURNS)) + 2
+    return steps if steps <= _MOST_REACH_STEPS else 0
+
+
+def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn, turns: float = SPARE_TURNS) -> float:
+    """Steps of the asked length that take a ray in from the camera, `turns` times round the hole, and out again.
 
     Adaptive controls find their own lengths: 0.
     """
@@ -250,17 +267,17 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn) -> float:
     if model.traits.field:
         return scene.rays.field_way / (scene.rays.step_length * shortest)
     if model.traits.marches_in == "mino":
-        return (math.pi + 2.0 * math.pi * SPARE_TURNS) / (scene.rays.step_angle * shortest)
+        return (math.pi + 2.0 * math.pi * turns) / (scene.rays.step_angle * shortest)
     bound = max(_march_bound(scene, model), _BEYOND * met.reach(scene))
     far = min(scene.camera.distance, 1e6) if math.isfinite(scene.camera.distance) else bound
     photon_sphere = 1.5 * scene.hole.gravity_strength
     turn = 2.0 * math.pi * photon_sphere / math.sqrt(3.0)  # in σ: |v|² = 3 on the photon sphere
     if control.key == "fixed":
         aside = 1.7 * far  # the longest way of a ray that passes too far out to be taken in closed form
-        return max(aside, min(far, bound) + 1.7 * bound + SPARE_TURNS * turn) / scene.rays.step_length
+        return max(aside, min(far, bound) + 1.7 * bound + turns * turn) / scene.rays.step_length
     # 1.0 for what an artistic horizon lets run on inside r = G
     legs = math.log(max(min(far, bound) / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere) + 1.0
-    return 3.0 * (legs + SPARE_TURNS * turn / photon_sphere) / (scene.rays.step_length * shortest)
+    return 3.0 * (legs + turns * turn / photon_sphere) / (scene.rays.step_length * shortest)
 
 
 def _disk_radii(scene: Scene, where: SpaceTime) -> tuple[float, float]:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import moderngl
 import numpy as np
 
-from ..glsl.declared import EdgeMark, PixelClass
+from ..glsl.declared import EdgeMark
+from .classes import drawn, own_rays
 from .hit_map import HitMap
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import Programs
 from .sorting import PixelSorting, marks_target, set_hiding
 from .target import Target
-
-_OWN_RAYS = PixelClass.OWN_RAY.depth_beyond
 
 _SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
 _SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
@@ -57,7 +53,7 @@ class EdgePixels:
         frame.use()
         frame.depth_mask = False
         frame.clear(1.0, 1.0)  # no ray
-        with drawn_nearer(self._ctx, marks, _OWN_RAYS):
+        with drawn(self._ctx, marks, own_rays(inputs.plan)):
             marks.draw()
         return self._own.texture
 
@@ -109,14 +105,3 @@ def _beside_changes(flat: np.ndarray, width: int) -> np.ndarray:
 def _has_ray(marks: np.ndarray) -> np.ndarray:
     """Which pixels have rays of their own."""
     return (marks & 255) != EdgeMark.NO_RAY
-
-
-@contextmanager
-def drawn_nearer(ctx: moderngl.Context, draw: Draw, depth: float) -> Iterator[None]:
-    """Has `draw` draw only where the depth buffer holds less than `depth`."""
-    draw.set(triangle_depth=2.0 * depth - 1.0)
-    ctx.enable(moderngl.DEPTH_TEST)
-    ctx.depth_func = ">"
-    yield
-    ctx.disable(moderngl.DEPTH_TEST)
-    ctx.depth_func = "<"

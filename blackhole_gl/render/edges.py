@@ -8,7 +8,8 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .edge_pixels import EdgePixels, drawn_nearer
+from .classes import Where, drawn
+from .edge_pixels import EdgePixels
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
 from .programs import Programs
@@ -67,7 +68,7 @@ class EdgeRays:
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})
         self._places.frame(target).use()
         self._ctx.scissor = self._places.box
-        with drawn_nearer(self._ctx, resolve, _BETWEEN):
+        with drawn(self._ctx, resolve, Where(">", _BETWEEN)):
             resolve.draw()
         self._ctx.scissor = None
 

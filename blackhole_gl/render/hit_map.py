@@ -13,12 +13,13 @@ import moderngl
 import numpy as np
 
 from ..physics.observer import cos_sin_deg
-from ..plan import REFINE_STEP, Plan
-from . import hit_texels, instances, refinement
+from ..plan import REACH_STEP, REFINE_STEP, Plan
+from . import hit_texels, instances, reach, refinement
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
+from .squares import Squares
 from .tables import Tables
 from .target import Target
 
@@ -52,6 +53,12 @@ class RayBlocks:
         return {"block_pixels": self.pixels}
 
 
+# Rays that end on nothing but the hole: those between which hits are interpolated.
+_ON_NOTHING = {"MEETINGS": 0}
+
+# Share of a picture beyond which changed squares are not worth their own draw.
+_MOST_CHANGED = 0.5
+
 # What shaders that draw rays of blocks are composed with.
 _IN_BLOCKS = {"RAYS_IN_BLOCKS": 1}
 
@@ -79,7 +86,10 @@ class HitMap:
         self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
-        self._key: tuple | None = None
+        self._key: tuple | None = None  # of all but the things and media, which have a key of their own
+        self._met: _Met = _NOTHING_MET
+        self._reach = reach.Reach(ctx, programs, tables)
+        self._changed: tuple[int, Squares] | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
@@ -102,22 +112,48 @@ class HitMap:
         key = _key_of(inputs, rays)
         refined = progressive and plan.refine_px > 0.0
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
+        stands = held and (refined or self.is_sharp)
+        before, self._met = self._met, _Met.of(inputs)
+        changed = self._squares_changed(inputs, before) if stands else None
+        held = held and changed is not None
         self.sharpened = refined and held and not self.is_sharp
         self._last = inputs
-        if held and self.is_sharp:
+        if held and self.is_sharp and not changed:
             return False
         self._bind_tables(rays)
         target = self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings))
-        if not refined:
+        generation, was_sharp = self.generation, self.is_sharp
+        if changed:
+            self._trace_squares(rays, target, changed)
+        if not refined and not (held and self.is_sharp):
             self._trace_rows(rays, target, 0, inputs.size[1])
         elif self.sharpened:
             self._sharpen(rays, target)
-        else:
+        elif not held:
             self._trace_refined(rays)
         self._key = key
         self.traces += 1
         self.generation = next(_GENERATIONS)
+        self._changed = (generation, changed) if changed and was_sharp else None
         return True
+
+    def changed_since(self, generation: int) -> Squares | None:
+        """The squares of a sharp map that alone differ from what it was at that `generation`; None where all of it may."""
+        return self._changed[1] if self._changed is not None and self._changed[0] == generation else None
+
+    def _squares_changed(self, inputs: FrameInputs, before: _Met) -> Squares | None:
+        """What may show the things and media that are other than those `before`; None where that may be most of the picture."""
+        now = self._met
+        if now.kinds != before.kinds:
+            return None
+        moved = [k for k, (old, new) in enumerate(zip(before.key, now.key)) if old != new]
+        size = inputs.size
+        if not moved:
+            return Squares.of(np.empty((0, 2), int), REACH_STEP, size)
+        if not inputs.plan.reach_steps or min(size) < REACH_STEP:
+            return None
+        found = self._reach.squares(inputs, np.concatenate([before.balls[moved], now.balls[moved]]))
+        return found if len(found) * REACH_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
 
     def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks) -> None:
         """Traces the rays of `blocks`, all of the picture of `inputs`."""
@@ -137,7 +173,7 @@ class HitMap:
         plan = rays.inputs.plan
         things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS), things)
-        if plan.meetings:
+        if "meeting_reach" in rays.program:
             rays.set(meeting_reach=plan.reach)
 
     @property
@@ -193,8 +229,24 @@ class HitMap:
         if end == height:
             self._refined_for, self._sharp_rows = None, 0
 
+    def _trace_squares(self, rays: Draw, target: moderngl.Framebuffer, squares: Squares) -> None:
+        """Exact rays for `squares`; the rest of the map stays as it is."""
+        target.use()
+        rays.set(ray_grid=(1.0, 0.0, 0.0))
+        rays.draw_squares(squares)
+        if not self.is_sharp:
+            self._grid.give_things(rays.inputs, squares, self._sharp_rows)
+
     def _trace_refined(self, rays: Draw) -> None:
-        self._grid.trace(rays)
+        inputs = rays.inputs
+        if inputs.plan.meetings:
+            reached = self._reach.draw(inputs, self._met.balls)
+            coarse = self._programs.get("trace.frag", inputs, _ON_NOTHING)
+            self._bind_tables(coarse)
+            self._grid.trace(coarse, reached)
+            self._bind_tables(rays)
+        else:
+            self._grid.trace(rays, None)
         self._grid.trace_own_rays(rays, self.textures)
         self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
 
@@ -313,6 +365,7 @@ class HitMap:
         """Gives the GL objects back."""
         self.instances.release()
         self._grid.release()
+        self._reach.release()
         self._release_targets()
 
     def _release_targets(self) -> None:
@@ -328,11 +381,37 @@ def _texels(texture: moderngl.Texture) -> np.ndarray:
     return np.frombuffer(texture.read(), np.float32).reshape(texture.height, texture.width, 4)
 
 
+@dataclass(frozen=True, eq=False)
+class _Met:
+    """The things and media of a frame.
+
+    Attributes:
+        kinds: of each.
+        key: what its hits depend on, of each.
+        balls: that hold each, (N, 4).
+    """
+
+    kinds: tuple
+    key: tuple
+    balls: np.ndarray
+
+    @classmethod
+    def of(cls, inputs: FrameInputs) -> _Met:
+        """Those of `inputs`."""
+        if not inputs.plan.meetings:
+            return _NOTHING_MET
+        key = instances.key(inputs.plan, inputs.time)
+        return cls(tuple(entry[:2] for entry in key), key, reach.balls(inputs.plan, inputs.time))
+
+
+_NOTHING_MET = _Met((), (), np.empty((0, 4)))
+
+
 def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
-    """What bends rays and where they are looked at from: hits that have the same key are the same."""
+    """What bends rays and where they are looked at from: hits that have the same key, and the same things on their way, are the same."""
     scene = inputs.plan.scene
     parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
-    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders, instances.key(inputs.plan, inputs.time)
+    return rays.serial, inputs.ray_bytes, scene.hole, parameters, inputs.size, inputs.plan.orders
 
 
 def _refined_for(inputs: FrameInputs) -> tuple:

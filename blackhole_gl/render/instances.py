@@ -79,7 +79,7 @@ def used(scene: Scene) -> list[PlugIn]:
 
 
 def key(plan: Plan, time: float) -> tuple:
-    """What hits depend on here: every instance but for its surface, and the places of those that move."""
+    """What hits depend on here, an entry for each instance: its slot, kind and values but for its surface, and the places of those that move."""
     return tuple(_key_of(instance, kinds[instance.kind], plan, time) for slot, kinds in _catalogues() for instance in met.instances(plan.scene, slot))
 
 

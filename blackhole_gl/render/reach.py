@@ -7,18 +7,23 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
-from ..plan import REACH_STEP
+from ..physics import motion
+from ..plan import REACH_STEP, Plan
+from ..scene import met
 from ..shapes import Float
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
 from .squares import Squares
-from .tables import RAY_UNIT, Tables
+from .tables import Tables
 from .target import Target
 
 MOST_BALLS = 24
 """Balls that rays are held against; more are put together in larger ones."""
 
 _ALONE = {"ORDERS": 0, "MEETINGS": 0}  # the rays end on nothing and look for no crossing
+
+# Rays end where they leave this shell: horizon radii, and r_s about a hole of strength 1, outside which none turns back.
+_INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,10 +55,9 @@ class Reach:
         """R8, 1 for each square of ``REACH_STEP``² pixels that may show anything within `balls`, centre and radius each in r_s in the plan's frame."""
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_nodes.frag", inputs, _ALONE)
-        self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS))
         few = gathered(balls, MOST_BALLS)
-        nodes.sample({"reach_balls": self._table(few)}, RAY_UNIT + 1)
-        nodes.set(reach_count=len(few))
+        self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
+        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
         made.nodes.frame.use()
         nodes.draw()
         cells = self._programs.get("reach_cells.frag", inputs)
@@ -81,7 +85,7 @@ class Reach:
             if self._made is not None:
                 self._made.release()
             cells = -(-size[0] // REACH_STEP), -(-size[1] // REACH_STEP)
-            self._made = _Made(size, self._target((cells[0] + 3, cells[1] + 3), 4, "f4"), self._target(cells, 1, "f1"))
+            self._made = _Made(size, self._target((cells[0] + 1, cells[1] + 1), 1, "f4"), self._target(cells, 1, "f1"))
         return self._made
 
     def _target(self, size: tuple[int, int], components: int, dtype: str) -> Target:
@@ -96,6 +100,16 @@ class Reach:
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
         self._balls.write(balls.astype(np.float32).tobytes(), (0, 0, len(balls), 1))
         return self._balls
+
+
+def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
+    """A ball about each thing and medium of the plan's scene at scene time `time`, in the order of `instances.key`: centre and radius in r_s."""
+    found = [here for slot in met.SLOTS for _, here in motion.motions(plan.scene, slot, plan.space_time, time)]
+    return np.array([(*here.centre, here.reach) for here in found]).reshape(-1, 4)
+
+
+def _shell(plan: Plan) -> tuple[float, float]:
+    return _INNERMOST * plan.space_time.horizon_radius, max(_OUTERMOST * plan.scene.hole.gravity_strength, plan.reach)
 
 
 def gathered(balls: Float[np.ndarray, "balls 4"], most: int) -> Float[np.ndarray, "balls 4"]:

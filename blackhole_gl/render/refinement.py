@@ -11,16 +11,15 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..plan import GRID_MARGIN, REFINE_STEP
+from .classes import drawn, own_rays
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
+from .squares import Squares
 from .target import Target
 
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
-
-# Between the depth of pixels with rays of their own and all others.
-_OWN_RAYS = PixelClass.OWN_RAY.depth_beyond
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
 _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2"), ("bend2", "f2"))
@@ -73,8 +72,13 @@ class CoarseGrid:
         """Depth of the picture's size by what each pixel of the last `trace` needs, as shaders/refine_classes.frag writes it."""
         return self._made.classes
 
-    def trace(self, rays: Draw) -> None:
-        """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`."""
+    def trace(self, rays: Draw, reached: moderngl.Texture | None) -> None:
+        """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`.
+
+        Args:
+            rays: end on nothing but the hole.
+            reached: 1 for each square of ``REACH_STEP``² pixels that may show a thing; None in a scene without.
+        """
         inputs = rays.inputs
         made = self._targets(inputs.size, textures(inputs.plan.orders))
         first = -GRID_MARGIN * REFINE_STEP
@@ -82,7 +86,7 @@ class CoarseGrid:
         made.rays.frame.use()
         rays.draw()
         self._make_nodes(inputs, made)
-        self._judge_cells(inputs, made)
+        self._judge_cells(inputs, made, reached)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
@@ -93,13 +97,9 @@ class CoarseGrid:
             self._own = self._ctx.framebuffer(textures, self.classes)
         self._own.use()
         self._own.depth_mask = False
-        self._ctx.enable(moderngl.DEPTH_TEST)
-        self._ctx.depth_func = ">"  # pixels with rays of their own are nearer than this, all others farther
-        rays.set(ray_grid=(1.0, 0.0, 0.0), triangle_depth=2.0 * _OWN_RAYS - 1.0)
-        rays.draw()
-        rays.set(triangle_depth=0.0)
-        self._ctx.disable(moderngl.DEPTH_TEST)
-        self._ctx.depth_func = "<"
+        rays.set(ray_grid=(1.0, 0.0, 0.0))
+        with drawn(self._ctx, rays, own_rays(rays.inputs.plan)):
+            rays.draw()
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""
@@ -113,6 +113,17 @@ class CoarseGrid:
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
         self._sort_pixels(inputs, made, first, end, all_traced=True)
+
+    def give_things(self, inputs: FrameInputs, squares: Squares, sharp_rows: int) -> None:
+        """Marks `squares` as traced pixel by pixel and as ones that may show a thing; of the rows below `sharp_rows` every pixel is traced."""
+        made = self._made
+        for texture, value in zip(made.cells.textures, (0, round(255.0 * PixelClass.THING.depth))):
+            cells = np.frombuffer(texture.read(alignment=1), np.uint16 if value == 0 else np.uint8).reshape(texture.height, texture.width).copy()
+            cells[squares.mask(inputs.size, REFINE_STEP)] = value
+            texture.write(cells.tobytes(), alignment=1)
+        self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
+        if sharp_rows:
+            self._sort_pixels(inputs, made, 0, sharp_rows, all_traced=True)
 
     def own_rays(self) -> np.ndarray:
         """Which pixels are traced themselves, bool (height, width), row 0 at the bottom; nodes of the grid left out. Waits for the GPU."""
@@ -137,9 +148,9 @@ class CoarseGrid:
         made.nodes.frame.use()
         nodes.draw()
 
-    def _judge_cells(self, inputs: FrameInputs, made: _Made) -> None:
+    def _judge_cells(self, inputs: FrameInputs, made: _Made, reached: moderngl.Texture | None) -> None:
         cells = self._programs.get("refine_cells.frag", inputs)
-        cells.sample({"kinds": made.nodes.texture})
+        cells.sample({"kinds": made.nodes.texture} | ({} if reached is None else {"reached": reached}))
         made.cells.frame.use()
         cells.draw()
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from ..glsl.declared import PixelClass
+from .classes import EVERYWHERE, FLAT_SKY, MATTER, SKY, THINGS, Where
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
 from .programs import SHADE_SLOTS, Draw, Programs, Samplers, chosen
 from .sorting import PixelSorting, Sorted
+from .squares import Squares
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
 
-# Nearer than these depths lie the pixels that may cross the disk, and that may be of the sky; farther than the last those of flat cells.
-_DISK, _SKY, _FLAT_SKY = PixelClass.MATTER.depth_beyond, PixelClass.SKY.depth_beyond, PixelClass.FLAT_SKY.depth - 0.1
+_NO_THINGS = {"MEETINGS": 0}  # for pixels that show none
 
 _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
@@ -43,10 +43,12 @@ class ShadePass:
         self._tables, self._temperatures = tables, temperatures
         self.sorting = PixelSorting(ctx, programs)
         self._sorted: Sorted | None = None  # the pixels of the last sharp map
-        self._disk_box: Box | None = None  # not known before the second frame of the same pixels
+        self._boxes: dict[Where, Box] = {}  # not known before the second frame of the same pixels
         self._frame: moderngl.Framebuffer | None = None
         self._sky: Target | None = None
         self._sky_key: tuple | None = None
+        self._sky_sorting: tuple | None = None  # key of the pixels that it is of
+        self._sky_generation = 0
         self._sky_kept = False
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
@@ -57,18 +59,24 @@ class ShadePass:
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
         self._lay_sky(inputs, hit_map, target, frame, classes)
-        if inputs.plan.orders or inputs.plan.meetings:
-            frame.use()
-            ctx.enable(moderngl.BLEND)
-            # The disk, things and media, and what they let through of the sky behind them: of all colours alike, or of each its own.
-            # Alpha becomes the share of the sky's light that is left, where stars may be.
-            behind = _SECOND_OUTPUT if inputs.plan.meetings else moderngl.SRC_ALPHA
-            ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
-            disk = self._prepared("shade_matter.frag", inputs, hit_map, hit_map.switches())
-            self._draw_classes(disk, ">", _DISK, self._disk_box if hit_map.is_sharp else None)
+        frame.use()
+        ctx.enable(moderngl.BLEND)
+        if inputs.plan.orders:
+            self._draw_matter(inputs, hit_map, MATTER, _NO_THINGS, moderngl.SRC_ALPHA)
+        if inputs.plan.meetings:
+            self._draw_matter(inputs, hit_map, THINGS, {}, _SECOND_OUTPUT)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
+
+    def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: dict[str, int], behind: int) -> None:
+        """The disk, things and media, and what they let through of the sky `behind` them: of all colours alike, or of each its own.
+
+        Alpha becomes the share of the sky's light that is left, where stars may be.
+        """
+        self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
+        matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
+        self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else None)
 
     def _lay_sky(
         self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, frame: moderngl.Framebuffer, classes: moderngl.Texture
@@ -84,9 +92,11 @@ class ShadePass:
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
         pictures = self._tables.pictures.of(chosen(inputs.plan, "sky"), scene)
-        sorting = self._sorted and self._sorted.key
-        key = (sky.serial, sorting, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0)
-        if key != self._sky_key or not hit_map.is_sharp:
+        key = (sky.serial, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0)
+        before, self._sky_sorting = self._sky_sorting, self._sorted.key if self._sorted is not None else None
+        changed = self._sorted.changed if self._sorted is not None and self._sorted.key != before and self._sorted.before == before else None
+        stale = before != self._sky_sorting and changed is None
+        if key != self._sky_key or stale or not hit_map.is_sharp:
             self._sky_key, self._sky_kept = key, False
             self._draw_sky(frame, inputs, hit_map)
             return
@@ -95,14 +105,26 @@ class ShadePass:
         if not self._sky_kept:
             self._draw_sky(self._sky.frame, inputs, hit_map)
             self._sky_kept = True
+        elif changed:
+            self._draw_sky(self._sky.frame, inputs, hit_map, changed)
         self._ctx.copy_framebuffer(target, self._sky.frame)
 
-    def _draw_sky(self, frame: moderngl.Framebuffer, inputs: FrameInputs, hit_map: HitMap) -> None:
-        self._clear(frame)
-        self._draw_classes(self._prepared_sky(inputs, hit_map, hit_map.switches()), ">", _SKY)
+    def _draw_sky(self, frame: moderngl.Framebuffer, inputs: FrameInputs, hit_map: HitMap, squares: Squares | None = None) -> None:
+        """All of it, or in `squares` of a sharp map alone."""
+        if squares is None:
+            self._clear(frame)
+        else:
+            frame.use()
         where_flat = hit_map.switches_where_flat()
         if where_flat is not None:
-            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), "<", _FLAT_SKY)
+            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY)
+        sky = self._prepared_sky(inputs, hit_map, hit_map.switches())
+        if squares is not None:
+            self._draw_classes(sky, EVERYWHERE, squares=squares)
+            return
+        self._draw_classes(sky, SKY)
+        if inputs.plan.meetings:
+            self._draw_classes(sky, THINGS)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -141,22 +163,29 @@ class ShadePass:
             found |= {**hit_map.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
         return {**found, "temperature_profile": self._temperatures.of(inputs.plan)}
 
-    def _draw_classes(self, prepared: Draw, depth_func: str, depth: float, box: Box | None = None) -> None:
-        """Draws where the pixel's class compares with `depth`: ``>`` where it is below, ``<`` where it is beyond; inside `box`, if one is given."""
-        self._ctx.depth_func = depth_func
-        prepared.set(triangle_depth=2.0 * depth - 1.0)
+    def _draw_classes(self, prepared: Draw, where: Where, box: Box | None = None, squares: Squares | None = None) -> None:
+        """Draws `where` the pixel's class says, inside `box` or in `squares` alone, if such are given."""
+        self._ctx.depth_func = where.comparison
+        prepared.set(triangle_depth=2.0 * where.depth - 1.0)
         self._ctx.scissor = box
-        prepared.draw()
+        if squares is None:
+            prepared.draw()
+        else:
+            prepared.draw_squares(squares)
         self._ctx.scissor = None
 
     def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
         found, last = self.sorting.of(inputs, hit_map), self._sorted
-        if found is last:
-            self._disk_box = self._disk_box or _disk_box(found.depth)
-            return found.depth
+        self._sorted = found
         if last is not None and last.depth is not found.depth:
             self._release_targets()
-        self._sorted, self._disk_box = found, None
+        changed = found.changed if last is not None and found is not last and found.before == last.key else None
+        if found is not last and changed is None:
+            self._boxes = {}
+        elif not self._boxes:
+            self._boxes = {where: _box_of(found.depth, where) for where in (MATTER, THINGS)}
+        elif changed:
+            self._boxes = {where: _joined(box, changed.box(found.depth.size)) for where, box in self._boxes.items()}
         return found.depth
 
     def _attached(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> moderngl.Framebuffer:
@@ -175,10 +204,19 @@ class ShadePass:
         self._sky, self._frame, self._sky_key, self._sky_kept = None, None, None, False
 
 
-def _disk_box(classes: moderngl.Texture) -> Box:
-    """The smallest that holds all pixels which may cross the disk; of no size where there are none. Waits for the GPU."""
+def _joined(box: Box, other: Box) -> Box:
+    """The smallest that holds both."""
+    if not (box[2] and box[3]):
+        return other
+    low = min(box[0], other[0]), min(box[1], other[1])
+    high = max(box[0] + box[2], other[0] + other[2]), max(box[1] + box[3], other[1] + other[3])
+    return *low, high[0] - low[0], high[1] - low[1]
+
+
+def _box_of(classes: moderngl.Texture, where: Where) -> Box:
+    """The smallest that holds all pixels of a class; of no size where there are none. Waits for the GPU."""
     depth = np.frombuffer(classes.read(), np.float32).reshape(classes.height, classes.width)
-    pixels = depth < _DISK
+    pixels = depth < where.depth if where.comparison == ">" else depth > where.depth
     rows, columns = np.flatnonzero(pixels.any(axis=1)), np.flatnonzero(pixels.any(axis=0))
     if not rows.size:
         return 0, 0, 0, 0

@@ -10,6 +10,7 @@ from ..scene import Scene
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Draw, Programs
+from .squares import Squares
 from .target import Target
 
 _VEIL = 0.5
@@ -23,11 +24,14 @@ class Sorted:
         key: of what they depend on.
         depth: by what each needs, as shaders/shade_classes.frag writes it.
         marks: RG8, shaders/common/edge_marks.glsl.
+        before: key of those that were sorted before, from which they differ in `changed` alone; None where they may anywhere.
     """
 
     key: tuple
     depth: moderngl.Texture
     marks: moderngl.Texture
+    before: tuple | None = None
+    changed: Squares | None = None
 
 
 class PixelSorting:
@@ -44,9 +48,11 @@ class PixelSorting:
         plan, scene = inputs.plan, inputs.plan.scene
         size = hit_map.textures[0].size
         key = hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer, scene.disk.orders_shown, scene.disk.compositing, hides(scene)
-        if self._kept is None or self._kept.key != key:
-            self._kept = self._sort(inputs, hit_map, size, key)
-        return self._kept
+        kept = self._kept
+        if kept is None or kept.key != key:
+            changed = hit_map.changed_since(kept.key[0]) if kept is not None and kept.key[1:] == key[1:] else None
+            kept = self._kept = self._sort(inputs, hit_map, size, key, changed)
+        return kept
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -55,7 +61,8 @@ class PixelSorting:
                 item.release()
         self._target, self._depth, self._kept = None, None, None
 
-    def _sort(self, inputs: FrameInputs, hit_map: HitMap, size: tuple[int, int], key: tuple) -> Sorted:
+    def _sort(self, inputs: FrameInputs, hit_map: HitMap, size: tuple[int, int], key: tuple, changed: Squares | None) -> Sorted:
+        """All pixels, or those that have `changed` anew."""
         if self._target is None or self._depth is None or self._target.size != size:
             self.release()
             self._depth = self._ctx.depth_texture(size)
@@ -66,10 +73,14 @@ class PixelSorting:
         self._target.frame.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        classes.draw()
+        if changed is None:
+            classes.draw()
+        else:
+            classes.draw_squares(changed)
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
-        return Sorted(key, self._depth, self._target.texture)
+        before = self._kept.key if self._kept is not None and changed is not None else None
+        return Sorted(key, self._depth, self._target.texture, before, changed)
 
 
 def hides(scene: Scene) -> bool:

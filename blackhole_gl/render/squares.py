@@ -37,11 +37,22 @@ class Squares:
     def __len__(self) -> int:
         return len(self.places)
 
+    def box(self, size: tuple[int, int]) -> tuple[int, int, int, int]:
+        """x, y, width and height of the smallest part of a picture of `size` that holds them all."""
+        x, y = (self.side * self.places.min(axis=0)).tolist()
+        right, top = np.minimum(self.side * (self.places.max(axis=0) + 1), size).tolist()
+        return x, y, right - x, top - y
+
     def holds(self, pixels: Int[np.ndarray, "pixels 2"], size: tuple[int, int]) -> np.ndarray:
         """Which of `pixels`, column and row each, lie in them, bool (N,)."""
+        return self.mask(size, self.side)[pixels[:, 1] // self.side, pixels[:, 0] // self.side]
+
+    def mask(self, size: tuple[int, int], cell: int) -> np.ndarray:
+        """Which of the cells of `cell` pixels each way, a part of the side, of a picture of `size` lie in them, bool (rows, columns)."""
         marked = np.zeros((-(-size[1] // self.side), -(-size[0] // self.side)), bool)
         marked[self.places[:, 1], self.places[:, 0]] = True
-        return marked[pixels[:, 1] // self.side, pixels[:, 0] // self.side]
+        parts = self.side // cell
+        return np.kron(marked, np.ones((parts, parts), bool))[: -(-size[1] // cell), : -(-size[0] // cell)]
 
 
 class SquareBuffer:

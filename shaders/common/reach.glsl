@@ -1,86 +1,58 @@
-// How near a coarse ray comes to balls in space, told by how far apart the rays beside it would have to end to meet one of them.
+// Whether coarse rays, side by side, come so near to balls in space that one between them may meet it.
 //
-// Rays of the coarse grid one step apart are, after a way s, no farther from each other than
-//     apart + spread·s         as straight lines from the camera, plus
-//     Δ·l                      once the hole has bent them apart: Δ the angle between the directions in which they end, l the way since they came near it
-// (docs/performance.md). Δ is not known before rays have ended; so a ray keeps the least Δ with which that reaches a ball, and reach_cells.frag compares.
+// Neighbours take steps of like length, so after as many steps they are about as far on their ways, and what is between them across the way is how far apart
+// they are there: the margin by which a ray may miss a ball. It is a difference between the fragments of a quad, so all rays take all steps, those too that
+// have ended. Rays end where they leave the shell between reach_radii, in which all balls lie: there neighbours end alike, whatever step it is in.
 
-uniform sampler2D reach_balls;  // a texel each: centre and radius in r_s, in the plan's frame
+uniform sampler2D reach_balls; // a texel each: centre and radius in r_s, in the plan's frame
 uniform int reach_count;
+uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second
 
-const int REACH_CHORDS = 4;       // straight pieces that a step is cut into
-const float REACH_FAR_END = 1e-3; // of a step that begins or ends infinitely far away, left out there: nothing is out there
-const float REACH_NEAR_HOLE = 6.0; // r_s, for gravity of strength 1: where the hole begins to bend rays apart
-const float REACH_NEVER = 3.0;    // more than any two unit vectors are apart
-const float REACH_CAPTURED = 1.1; // horizon radii at which the end of a captured ray is taken
+// How far a cubic may be from the way, of the piece's length, by the sum of the slopes at its ends: where it bends much, as far as the cubic bows.
+float roughness(float slopes) {
+    return 0.15 * slopes * min(0.25 * slopes, 1.0);
+}
 
-struct Reach {
-    vec3 x, v;       // place in r_s; unit vector along the way there
-    float way;       // from where it began
-    float bent;      // of it, since it came near the hole
-    bool near_hole;
-    float apart, spread;
-    float least;     // Δ
-    vec3 captured;   // direction from the hole where it went in
+// A piece of a way: where it begins and ends, and the velocities there, by any parameter.
+struct Piece {
+    vec3 from, to, from_velocity, to_velocity;
 };
 
-vec3 reach_point(Curve curve, float t, out vec3 velocity) {
-    vec4 rate, place = curve_place(curve, t, rate);
-    vec3 x = place.xyz / place.w;
-    velocity = (rate.xyz - x * rate.w) / place.w;
-    return x;
+// Distance from the hole less r, but that it is finite at infinity too.
+float beyond(vec4 place, float r) {
+    return length(place.xyz) - r * place.w;
 }
 
-vec3 across(vec3 d, vec3 v) {
-    return d - dot(d, v) * v;
+vec3 across(vec3 d, vec3 along) {
+    return d - dot(d, along) * along;
 }
 
-// Of a ray whose first step is `curve`. To be called by all rays alike: it looks at those beside this one.
-Reach reach_start(Curve curve) {
-    Reach reach;
-    vec3 velocity;
-    reach.x = reach_point(curve, curve.a.place.w <= 0.0 ? REACH_FAR_END : 0.0, velocity);
-    reach.v = normalize(velocity);
-    reach.apart = max(length(across(dFdx(reach.x), reach.v)), length(across(dFdy(reach.x), reach.v)));
-    reach.spread = curve.a.place.w <= 0.0 ? 0.0 : max(length(dFdx(reach.v)), length(dFdy(reach.v)));
-    reach.way = reach.bent = 0.0;
-    reach.near_hole = false;
-    reach.least = REACH_NEVER;
-    reach.captured = vec3(0.0);
-    return reach;
+// How far the rays about this one are from it at x, across the way. To be called by all of a quad.
+float reach_margin(vec3 x, vec3 velocity) {
+    vec3 along = normalize(velocity);
+    return max(length(across(dFdx(x), along)), length(across(dFdy(x), along)));
 }
 
-// The least Δ that reaches a ball from the chord of length `size` along the unit vector `along` from reach.x; the way bulges from it by at most `bulge`.
-float reach_of_chord(Reach reach, vec3 along, float size, float bulge) {
-    float least = REACH_NEVER;
+// Slope of a way against its chord, along the unit vector `along`.
+vec3 slope_against(vec3 velocity, vec3 along) {
+    float onward = dot(velocity, along);
+    return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
+}
+
+// Whether the way comes as near to a ball as the margin, which is margin.x at its beginning and margin.y at its end. The way bows from its chord by a cubic.
+bool comes_near(Piece piece, vec2 margin) {
+    vec3 chord = piece.to - piece.from;
+    float size = max(length(chord), 1e-20);
+    vec3 along = chord / size, before = slope_against(piece.from_velocity, along), after = slope_against(piece.to_velocity, along);
+    float rough = size * roughness(length(before) + length(after));
+    bool near = false;
     for (int i = 0; i < reach_count; ++i) {
         vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
-        float nearest = clamp(dot(ball.xyz - reach.x, along), 0.0, size);
-        float gone = nearest + ball.w; // to the ball's far side
-        float gap = distance(reach.x + nearest * along, ball.xyz) - ball.w - bulge - reach.apart - reach.spread * (reach.way + gone);
-        float needed = reach.near_hole ? gap / (reach.bent + gone) : REACH_NEVER;
-        least = min(least, gap <= 0.0 ? 0.0 : needed);
+        vec3 arm = ball.xyz - piece.from;
+        float u = clamp(dot(arm, along) / size, 0.0, 1.0);
+        vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
+        float room = ball.w + rough + mix(margin.x, margin.y, min(u + ball.w / size, 1.0));
+        near = near || dot(away, away) <= room * room;
     }
-    return least;
-}
-
-// One more step, as far as the part `end` of it.
-void reach_step(Curve curve, float end, inout Reach reach) {
-    float first = curve.a.place.w <= 0.0 ? REACH_FAR_END : 0.0, last = end < 1.0 ? end * (1.0 - REACH_FAR_END) : 1.0;
-    vec3 from_velocity, to_velocity;
-    reach.x = reach_point(curve, first, from_velocity);
-    float near_hole = REACH_NEAR_HOLE * hole_gravity_strength, captured = 0.5 * REACH_CAPTURED * hole_w_factors.x;
-    for (int k = 1; k <= REACH_CHORDS; ++k) {
-        float share = (last - first) / float(REACH_CHORDS);
-        vec3 to = reach_point(curve, first + float(k) * share, to_velocity);
-        float size = distance(reach.x, to), from_r = length(reach.x), to_r = length(to);
-        float bulge = 0.2 * share * length(to_velocity - from_velocity);
-        reach.near_hole = reach.near_hole || to_r < near_hole || dot(to, to_velocity) > 0.0;
-        reach.least = min(reach.least, reach_of_chord(reach, (to - reach.x) / max(size, 1e-20), size, bulge));
-        if (from_r > captured && to_r <= captured) reach.captured = normalize(mix(reach.x, to, (from_r - captured) / (from_r - to_r)));
-        reach.way += size;
-        reach.bent += reach.near_hole ? size : 0.0;
-        reach.x = to;
-        from_velocity = to_velocity;
-    }
+    return near;
 }

@@ -1,0 +1,47 @@
+"""Drawing only the pixels of one class (`PixelClass`): the depth test compares them with the depth at which the triangle is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import moderngl
+
+from ..glsl.declared import PixelClass
+from ..plan import Plan
+from .programs import Draw
+
+
+@dataclass(frozen=True)
+class Where:
+    """Those pixels whose depth compares with `depth`: ``>`` where it is nearer, ``<`` where it is farther away, ``1`` always."""
+
+    comparison: str
+    depth: float
+
+
+MATTER = Where(">", PixelClass.MATTER.depth_beyond)
+SKY = Where(">", PixelClass.SKY.depth_beyond)
+FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1)
+"""Those of things too: what is drawn for them has to come later."""
+THINGS = Where("<", PixelClass.FLAT_SKY.depth_beyond)
+EVERYWHERE = Where("1", 0.5)
+_OWN_RAYS = Where(">", PixelClass.OWN_RAY.depth_beyond)
+
+
+def own_rays(plan: Plan) -> Where:
+    """The pixels of a refined map that are traced themselves."""
+    return THINGS if plan.meetings else _OWN_RAYS
+
+
+@contextmanager
+def drawn(ctx: moderngl.Context, draw: Draw, where: Where) -> Iterator[None]:
+    """Has `draw` draw only `where` it says, by the depth buffer of the target in use."""
+    draw.set(triangle_depth=2.0 * where.depth - 1.0)
+    ctx.enable(moderngl.DEPTH_TEST)
+    ctx.depth_func = where.comparison
+    yield
+    draw.set(triangle_depth=0.0)
+    ctx.disable(moderngl.DEPTH_TEST)
+    ctx.depth_func = "<"

@@ -1,0 +1,168 @@
+"""Where things can be seen: a moving camera's refined map loses and displaces none, and a thing that moves before a resting one costs its own squares alone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from blackhole_gl.plan import REACH_STEP, plan
+from blackhole_gl.render import reach
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.scene import Scene, presets
+
+SIZE = (320, 180)
+VIEWS = 60
+
+
+def _sphere(name: str, radius: float, **values: object) -> dict[str, object]:
+    return {f"things.{name}.kind": "sphere", f"things.{name}.radius": radius, **{f"things.{name}.{key}": value for key, value in values.items()}}
+
+
+def _at_rest(name: str, radius: float, place: np.ndarray) -> dict[str, object]:
+    return _sphere(name, radius, **dict(zip("xyz", map(float, place))))
+
+
+def _scene(**values: object) -> Scene:
+    return presets.load(["kerr"], {"hole.spin": 0.9, "rays.edges": 1, **values})
+
+
+def _ten(**values: object) -> Scene:
+    """Ten spheres about the hole and its disk, of which the first is on an orbit."""
+    things = _sphere("s0", 0.4, path="geodesic", orbit_radius=7.0, orbit_tilt_deg=20.0)
+    for k in range(1, 10):
+        around = 2.0 * math.pi * k / 10
+        place = np.array([(4.0 + 0.9 * k) * math.cos(around), (4.0 + 0.9 * k) * math.sin(around), 1.5 * math.sin(3.0 * around) + 1.0])
+        things |= _at_rest(f"s{k}", 0.2 + 0.05 * k, place)
+    return _scene(**things, **values)
+
+
+def _random_view(rng: np.random.Generator) -> Scene:
+    """Ten spheres from half a pixel to the hole's size, anywhere from beside the horizon to 14 r_s, seen from anywhere."""
+    things = {}
+    for k in range(10):
+        direction = rng.normal(size=3)
+        place = direction / np.linalg.norm(direction) * np.exp(rng.uniform(np.log(1.5), np.log(14.0)))
+        things |= _at_rest(f"s{k}", float(np.exp(rng.uniform(np.log(0.02), np.log(0.8)))), place)
+    camera = {
+        "camera.azimuth_deg": rng.uniform(-180.0, 180.0),
+        "camera.inclination_deg": rng.uniform(2.0, 178.0),
+        "camera.distance": float(np.exp(rng.uniform(np.log(3.0), np.log(40.0)))),
+        "camera.yaw_deg": rng.uniform(-20.0, 20.0),
+    }
+    return _scene(**things, **camera)
+
+
+def _traced(renderer: Renderer, scene: Scene, *, progressive: bool, time: float = 0.0) -> HitArrays:
+    renderer.hit_map.forget()
+    renderer.hit_map.trace(_inputs(scene, time), progressive=progressive)
+    return renderer.hits()
+
+
+def _inputs(scene: Scene, time: float) -> FrameInputs:
+    return FrameInputs.whole(plan(scene), time, SIZE)
+
+
+def _same(found: HitArrays, exact: HitArrays) -> bool:
+    pairs = ((getattr(found, item.name), getattr(exact, item.name)) for item in fields(HitArrays))
+    return all(a is None and b is None or np.array_equal(a, b) for a, b in pairs)
+
+
+def test_no_thing_is_lost_or_displaced_under_a_moving_camera(renderer: Renderer) -> None:
+    """In which thing each pixel shows, refined maps of random views are the exact ones: a pixel that shows any has a ray of its own."""
+    rng = np.random.default_rng(3)
+    shown = wrong = interpolated = 0
+    for _ in range(VIEWS):
+        scene = _random_view(rng)
+        exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+        interpolated += int(np.count_nonzero(~renderer.hit_map.own_rays())) if not renderer.hit_map.is_sharp else 0
+        shown += np.count_nonzero(exact.met[..., 0, 0] >= 0)
+        wrong += np.count_nonzero(np.any(found.met != exact.met, axis=(-2, -1)))
+    assert shown > 30 * VIEWS
+    assert wrong == 0
+    assert interpolated > 0.4 * VIEWS * SIZE[0] * SIZE[1], "at 1280×720 most pixels are: squares are as large whatever the picture's size"
+
+
+def test_a_sphere_that_moves_before_a_resting_camera_leaves_the_exact_map_bit_for_bit(renderer: Renderer) -> None:
+    scene, fresh = _ten(), Renderer(renderer.ctx)
+    _traced(renderer, scene, progressive=False)
+    for time in np.arange(1, 26) * 1.7:
+        traces = renderer.hit_map.traces
+        renderer.hit_map.trace(_inputs(scene, time))
+        assert renderer.hit_map.traces == traces + 1
+        assert _same(renderer.hits(), _traced(fresh, scene, progressive=False, time=time)), time
+    fresh.release()
+
+
+def test_it_costs_rays_where_it_is_seen_and_was_seen_alone(renderer: Renderer) -> None:
+    """Those of its squares, and of those on the shadow's edge, where images of all there is crowd: a third of this small picture at most."""
+    scene = _ten()
+    _traced(renderer, scene, progressive=False)
+    before = renderer.hit_map.generation
+    renderer.hit_map.trace(_inputs(scene, 1.0))
+    changed = renderer.hit_map.changed_since(before)
+    assert changed is not None and 0 < len(changed) * REACH_STEP**2 < 0.33 * SIZE[0] * SIZE[1]
+    assert renderer.hit_map.changed_since(before - 1) is None
+    assert not renderer.hit_map.trace(_inputs(scene, 1.0)), "nothing has moved"
+
+
+def test_a_thing_that_is_changed_by_hand_costs_no_more(renderer: Renderer) -> None:
+    scene = _ten()
+    _traced(renderer, scene, progressive=False)
+    before = renderer.hit_map.generation
+    wider = scene.with_values({"things.s4.radius": 0.8, "things.s4.z": 2.0})
+    renderer.hit_map.trace(_inputs(wider, 0.0))
+    assert renderer.hit_map.changed_since(before) is not None
+    assert _same(renderer.hits(), _traced(renderer, wider, progressive=False))
+    before = renderer.hit_map.generation
+    renderer.hit_map.trace(_inputs(wider.with_values(_sphere("more", 0.3)), 0.0))
+    assert renderer.hit_map.changed_since(before) is None, "the hits of all spheres hold their numbers"
+
+
+def test_a_refined_map_sharpens_while_a_sphere_moves(renderer: Renderer) -> None:
+    scene = _ten()
+    assert not _same(_traced(renderer, scene, progressive=True), _traced(Renderer(renderer.ctx), scene, progressive=False))
+    frames = 0
+    while not renderer.hit_map.is_sharp:
+        frames += 1
+        renderer.hit_map.trace(_inputs(scene, 0.5 * frames), progressive=True)
+        assert frames <= 30
+    exact = _traced(Renderer(renderer.ctx), scene, progressive=False, time=0.5 * frames)
+    assert _same(renderer.hits(), exact)
+
+
+def test_the_picture_is_that_of_a_fresh_map(renderer: Renderer) -> None:
+    """Sky and sorting of the pixels are made anew in the changed squares alone; nothing stale is left, and no square is seen."""
+    scene, fresh = _ten(), Renderer(renderer.ctx)
+    renderer.hit_map.forget()
+    for time in np.arange(0, 12) * 2.3:
+        renderer.render(scene, time, SIZE)
+        fresh.hit_map.forget()
+        fresh.render(scene, time, SIZE)
+        np.testing.assert_array_equal(renderer.radiance(), fresh.radiance())
+    fresh.release()
+
+
+MOON = _sphere("moon", 0.5)
+
+
+@pytest.mark.parametrize("values", [{"things.ring.kind": "annulus"}, {"camera.distance": math.inf, **MOON}, {"rays.step_control": "doubling", **MOON}])
+def test_what_is_not_bound_to_a_place_is_traced_whole(renderer: Renderer, values: dict) -> None:
+    """A ring about the hole may be seen anywhere; parallel rays and steps that find their own lengths tell nothing by their neighbours."""
+    made = plan(_scene(**values))
+    assert made.reach_steps == 0 and made.refine_px == 0.0
+
+
+def test_many_balls_are_gathered_into_few_that_hold_them() -> None:
+    rng = np.random.default_rng(1)
+    balls = np.column_stack([rng.normal(0.0, 8.0, (1000, 3)), rng.uniform(0.01, 0.5, 1000)])
+    few = reach.gathered(balls, reach.MOST_BALLS)
+    assert len(few) == reach.MOST_BALLS
+    apart = np.linalg.norm(balls[:, None, :3] - few[None, :, :3], axis=-1) + balls[:, None, 3] - few[None, :, 3]
+    assert np.all(apart.min(axis=1) < 1e-9)
+    assert np.median(few[:, 3]) < 0.5 * reach.gathered(balls, 1)[0, 3], "not each of them the whole"
+    np.testing.assert_array_equal(reach.gathered(balls[:5], 24), balls[:5])
