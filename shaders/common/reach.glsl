@@ -13,10 +13,14 @@ float roughness(float slopes) {
     return 0.15 * slopes * min(0.25 * slopes, 1.0);
 }
 
-// A piece of a way: where it begins and ends, and the velocities there, by any parameter.
-struct Piece {
-    vec3 from, to, from_velocity, to_velocity;
+// Where a ray is, in r_s, and how fast it moves, by any parameter.
+struct Spot {
+    vec3 x, rate;
 };
+
+Spot spot_of(Path path) {
+    return Spot(path_point(path), path_velocity(path));
+}
 
 // Distance from the hole less r, but that it is finite at infinity too.
 float beyond(vec4 place, float r) {
@@ -27,10 +31,10 @@ vec3 across(vec3 d, vec3 along) {
     return d - dot(d, along) * along;
 }
 
-// How far the rays about this one are from it at x, across the way. To be called by all of a quad.
-float reach_margin(vec3 x, vec3 velocity) {
-    vec3 along = normalize(velocity);
-    return max(length(across(dFdx(x), along)), length(across(dFdy(x), along)));
+// How far the rays about this one are from it at a spot, across the way. To be called by all of a quad.
+float reach_margin(Spot spot) {
+    vec3 along = normalize(spot.rate);
+    return max(length(across(dFdx(spot.x), along)), length(across(dFdy(spot.x), along)));
 }
 
 // Slope of a way against its chord, along the unit vector `along`.
@@ -39,16 +43,17 @@ vec3 slope_against(vec3 velocity, vec3 along) {
     return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
 }
 
-// Whether the way comes as near to a ball as the margin, which is margin.x at its beginning and margin.y at its end. The way bows from its chord by a cubic.
-bool comes_near(Piece piece, vec2 margin) {
-    vec3 chord = piece.to - piece.from;
+// Whether the way from a to b comes as near to a ball as the margin, which is margin.x where it begins and margin.y where it ends. It bows from its chord by a
+// cubic, which rates by any parameter tell.
+bool comes_near(Spot a, Spot b, vec2 margin) {
+    vec3 chord = b.x - a.x;
     float size = max(length(chord), 1e-20);
-    vec3 along = chord / size, before = slope_against(piece.from_velocity, along), after = slope_against(piece.to_velocity, along);
+    vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
     float rough = size * roughness(length(before) + length(after));
     bool near = false;
     for (int i = 0; i < reach_count; ++i) {
         vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
-        vec3 arm = ball.xyz - piece.from;
+        vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);
         vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
         float room = ball.w + rough + mix(margin.x, margin.y, min(u + ball.w / size, 1.0));
