@@ -1,6 +1,6 @@
 #version 330 core
 // Hit map → the sky's linear, scene-referred radiance (Rec. 709 primaries). Drawn behind the disk by blending, and
-// only where shade_classes.frag found that light comes from the sky. Alpha: 1 where star_layer.frag has stars to draw, else 0.
+// only where shade_classes.frag found that light comes from the sky. Alpha: 1 where star_layer.frag has a star to draw, −1 where it may have several, else 0.
 //
 // Contract of a sky (shaders/skies/<key>.glsl):
 //   vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy)
@@ -17,7 +17,7 @@
 //     vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near)
 //       finer       1, or side of a pixel shown over the pixel's. Below 1 the points that can be seen singly with the footprint of a pixel shown are left
 //                   out;
-//       stars_near  above 0 if one of them is within 0.72 pixels of the middle;
+//       stars_near  how many of them are within 0.72 pixels of the middle;
 //     vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star)
 //       right, up   of a pixel shown;
 //       answer      the light of point n < SKY_STARS of those near, radiance × sr, 0 where it is not there;
@@ -54,7 +54,7 @@ void main() {
 #if SKY_STARS
     float stars_near;
     vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy, finer, stars_near);
-    radiance = vec4(clamp(light, 0.0, BRIGHTEST), stars_near > 0.0 ? escaped : 0.0);
+    radiance = vec4(clamp(light, 0.0, BRIGHTEST), escaped * (stars_near < 1.5 ? stars_near : -1.0));
 #else
     vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy);
     radiance = vec4(clamp(light, 0.0, BRIGHTEST), 0.0);

@@ -1,5 +1,6 @@
 #version 330 core
-// Listed pixels of a coarse picture → the single stars in them, the two brightest of each, as points on the picture enlarged. A point without one is nowhere.
+// Listed pixels of a coarse picture → the single stars in them as points on the picture enlarged: the brightest of each, then the second ones of those that may have
+// several. A point without one is nowhere.
 // A star is placed by its offset from the pixel's own direction, and the map's slopes there. Who finds it in his pixel, or just beside it, draws it: neighbours that
 // differ a little about the border both do, rather than neither, and the brighter of the two is kept.
 #defines
@@ -10,8 +11,9 @@
 #include "common/hit_map_read.glsl"
 #slot sky
 
-uniform sampler2D pixels;    // x, y of a pixel each, row by row
-uniform sampler2D radiance;  // of the coarse picture; alpha: share of the sky's light that comes through
+uniform sampler2D pixels;    // x, y of a point's pixel each, row by row
+uniform int firsts;          // pixels whose brightest star is drawn
+uniform sampler2D radiance;  // of the coarse picture; alpha: share of the sky's light that comes through, its sign that of shade_sky.frag
 #if POST_BLOOM
 uniform sampler2D glow;
 #endif
@@ -87,7 +89,7 @@ vec2 offset_of(vec3 direction, Place at) {
 
 void main() {
     carry();
-    int width = textureSize(pixels, 0).x, entry = gl_VertexID / 2;
+    int width = textureSize(pixels, 0).x, entry = gl_VertexID;
     ivec2 here = ivec2(texelFetch(pixels, ivec2(entry % width, entry / width), 0).xy);
     Hits own = fetch_escape(here);
     Hits right = hits_beside(here, ivec2(1, 0)), up = hits_beside(here, ivec2(0, 1)), corner = hits_beside(here, ivec2(1, 1));
@@ -107,7 +109,7 @@ void main() {
         if (brighter || star.power > second.power) second = brighter ? first : star;
         if (brighter) first = star;
     }
-    Star star = (gl_VertexID & 1) == 0 ? first : second;
+    Star star = entry < firsts ? first : second;
 
     vec2 offset = vec2(0.0); // by Newton
     Place at = middle;
@@ -126,7 +128,7 @@ void main() {
     float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);
     place = (vec2(here) + 0.5 + offset) / finer;
     stretch = 0.25 * inverse_of(spread, spread_det);
-    brightest = light * texelFetch(radiance, here, 0).a / (3.1415927 * sqrt(spread_det * gram.w));
+    brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
     vec2 part = place * finer / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
     glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;

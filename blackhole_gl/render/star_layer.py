@@ -11,8 +11,7 @@ import numpy as np
 from .programs import Draw, Samplers
 from .target import Target
 
-_ROW = 256  # pixels in a row of the list
-_STARS_A_PIXEL = 2  # that are drawn: points of shaders/star_layer.vert. There are about 500 stars in the pixels of a whole picture.
+_ROW = 256  # pixels in a row of the list. About 500 stars are in the pixels of a whole picture.
 
 
 class StarLayer:
@@ -35,19 +34,20 @@ class StarLayer:
         Args:
             stars: the program.
             samplers: of the hit map, of the sky, and of what the coarse picture was developed with, by their names in shaders.
-            radiance: of the coarse picture; alpha above 0 where there are stars (shaders/shade_sky.frag).
+            radiance: of the coarse picture; alpha tells where there are stars (shaders/shade_sky.frag).
         """
-        pixels = _with_stars(radiance)
+        first, second = _with_stars(radiance)
+        pixels = np.concatenate([first, second])
         x, y, width, height = viewport
         radiance.texture.filter = moderngl.LINEAR, moderngl.LINEAR
         stars.sample({**samplers, "pixels": self._list(pixels, radiance.size[0])})
-        stars.set(finer=(radiance.size[0] / width, radiance.size[1] / height), target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
+        stars.set(firsts=len(first), finer=(radiance.size[0] / width, radiance.size[1] / height), target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
         outer = target.viewport
         target.use()
         target.viewport = viewport
         self._ctx.enable(moderngl.BLEND | moderngl.PROGRAM_POINT_SIZE)
         self._ctx.blend_equation = moderngl.MAX  # type: ignore[assignment]  # moderngl's stubs know of two equations only
-        stars.draw_points(_STARS_A_PIXEL * len(pixels))
+        stars.draw_points(len(pixels))
         self._ctx.blend_equation = moderngl.FUNC_ADD  # type: ignore[assignment]
         self._ctx.disable(moderngl.BLEND | moderngl.PROGRAM_POINT_SIZE)
         target.viewport = outer
@@ -69,8 +69,10 @@ class StarLayer:
         return self._listed
 
 
-def _with_stars(radiance: Target) -> np.ndarray:
-    """Indices of the pixels with stars, from the bottom left, row by row; one at least."""
+def _with_stars(radiance: Target) -> tuple[np.ndarray, np.ndarray]:
+    """Indices of the pixels with stars, one at least, and of those that may have several; from the bottom left, row by row."""
     texels = np.frombuffer(radiance.frame.read(components=4, alignment=1, dtype="f2"), np.dtype("<u8"))
-    found = np.flatnonzero(texels >= 1 << 48)  # half floats, alpha in the highest bits
-    return found if found.size else np.zeros(1, int)  # a first star must not be what a driver compiles for
+    found = np.flatnonzero(texels >= 1 << 48)
+    alpha = (texels[found] >> np.uint64(48)).astype(np.uint16).view(np.float16)
+    first, second = found[alpha != 0.0], found[alpha < 0.0]
+    return (first if first.size else np.zeros(1, int)), second  # a first star must not be what a driver compiles for

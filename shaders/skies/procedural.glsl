@@ -127,7 +127,7 @@ struct StarLight {
     float flux;  // of single stars, in kernels
     float heat;  // the same, times K
     float haze;  // of the stars too dense to be seen singly, where the richness is 1, per sr
-    float near;  // above 0 if there is a single star within `room`
+    float near;  // number of single stars within `room`
 };
 
 // A grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3. `row`: where they begin in `star_cells`.
@@ -175,7 +175,7 @@ void add_star_grid(inout StarLight light, StarGrid grid, SkySpot spot, SkyPlace 
     light.flux += flux;
     light.heat += flux * star_kelvin(star.w);
     light.haze += haze * (mean_flux * grid.cells * grid.cells);
-    light.near = max(light.near, single * (room - away2));
+    light.near += single * (room - away2) > 0.0 ? 1.0 : 0.0;
 }
 
 StarLight star_light(SkySpot spot, float room) {
