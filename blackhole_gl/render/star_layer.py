@@ -41,7 +41,8 @@ class StarLayer:
         x, y, width, height = viewport
         radiance.texture.filter = moderngl.LINEAR, moderngl.LINEAR
         stars.sample({**samplers, "pixels": self._list(pixels, radiance.size[0])})
-        stars.set(firsts=len(first), finer=(radiance.size[0] / width, radiance.size[1] / height), target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
+        stars.set(firsts=len(first), finer=(radiance.size[0] / width, radiance.size[1] / height))
+        stars.set(target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
         outer = target.viewport
         target.use()
         target.viewport = viewport
