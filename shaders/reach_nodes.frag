@@ -21,26 +21,31 @@ out float node; // fate, and half of one where it comes near
 
 const int PIECES = 4; // of a step that is no cubic in space
 
-// A step is a cubic before the twist and before the division by w.
-bool is_bent(Curve curve, Spot from, Spot to) {
+// A step from a to b is a cubic before the twist and before the division by w.
+bool is_bent(Path a, Path b, Spot from, Spot to) {
     float r2 = dot(from.x, from.x), end2 = dot(to.x, to.x);
-    return abs(curve.b.twist.x - curve.a.twist.x) > 0.5 || max(r2, end2) > 16.0 * min(r2, end2);
+    return abs(b.twist.x - a.twist.x) > 0.5 || max(r2, end2) > 16.0 * min(r2, end2);
+}
+
+// Where the ray is when it has taken the part t of its last step.
+Spot spot_at(Orbit orbit, March m, float t) {
+    return spot_of(ray_path(orbit, march_step(orbit, m.s, t * m.h)));
 }
 
 bool is_outward(Path path) {
     return dot(path.place.xyz, path.rate.xyz) * path.place.w > dot(path.place.xyz, path.place.xyz) * path.rate.w;
 }
 
-// The part of the step at which the ray is as far from the hole as `radius`, or its end, and the spot there.
-float part_at(Curve curve, float radius, out Spot spot) {
-    float before = beyond(curve.a.place, radius), after = beyond(curve.b.place, radius);
+// The part of the step from a to b at which the ray is as far from the hole as `radius`, or its end, and the spot there.
+float part_at(Orbit orbit, March m, Path a, Path b, float radius, out Spot spot) {
+    float before = beyond(a.place, radius), after = beyond(b.place, radius);
     bool passes = before * after < 0.0;
-    float t = passes ? before / (before - after) : curve.b.place.w > 0.0 ? 1.0 : 0.5 * curve.a.place.w / (curve.a.place.w - curve.b.place.w);
-    spot = spot_of(curve_path(curve, t));
-    float r = length(spot.x), slip = passes ? clamp(r * r * (1.0 - r / radius) / dot(spot.x, spot.rate), -0.2, 0.2) : 0.0;
+    float t = passes ? before / (before - after) : b.place.w > 0.0 ? 1.0 : 0.5 * a.place.w / (a.place.w - b.place.w);
+    spot = spot_at(orbit, m, t);
+    float r = length(spot.x), slip = passes ? clamp(r * r * (1.0 - r / radius) / dot(spot.x, spot.rate), -0.2 * m.h, 0.2 * m.h) : 0.0;
     spot.x += slip * spot.rate;
     if (passes) spot.x *= radius / length(spot.x);
-    return t + slip;
+    return t + slip / m.h;
 }
 
 void main() {
@@ -56,19 +61,19 @@ void main() {
     bool near = false;
     for (int k = 0; k < reach_steps; ++k) {
         march_once(orbit, m);
-        Curve curve = Curve(path, ray_path(orbit, m.next), m.h);
-        path = curve.b;
+        Path old = path;
+        path = ray_path(orbit, m.next);
         bool leaves = beyond(path.place, reach_radii.y) > 0.0 && is_outward(path), falls = path.place.w > 0.0 && beyond(path.place, reach_radii.x) < 0.0;
         Spot end, before = here;
-        float part = part_at(curve, falls ? reach_radii.x : leaves ? reach_radii.y : 1e30, end);
+        float part = part_at(orbit, m, old, path, falls ? reach_radii.x : leaves ? reach_radii.y : 1e30, end);
         bool under_way = fate == UNRESOLVED;
         if (under_way) here = end;
         float margin_before = margin;
         margin = reach_margin(here);
-        int pieces = under_way && is_bent(curve, before, here) ? PIECES : 1, done = 0;
+        int pieces = under_way && is_bent(old, path, before, here) ? PIECES : 1, done = 0;
         do {
             float share = float(done) / float(pieces), next = float(done + 1) / float(pieces);
-            Spot after = spot_of(curve_path(curve, next * part));
+            Spot after = spot_at(orbit, m, next * part);
             if (done + 1 == pieces) after = here;
             near = near || under_way && comes_near(before, after, mix(vec2(margin_before), vec2(margin), vec2(share, next)));
             before = after;
