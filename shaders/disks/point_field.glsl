@@ -36,6 +36,19 @@ help = "Strength of the clumping of the points."
 #include "common/disk_orbit.glsl"
 
 const float POINT_RADIUS = 0.24; // of a cell; with a jitter of ±0.25 no point leaves its own cell, so one cell is enough
+const float RINGS_CHOSEN = 0.07; // share of the rings that are boosted
+
+// How much brighter than the mean the rings are that lie in a pixel as wide as `wide` rings, about `place`.
+float ring_boost(float place, float wide) {
+    float width = clamp(wide, 1e-3, 4.0), low = place - 0.5 * width, high = place + 0.5 * width;
+    float chosen = 0.0;
+    for (int k = -2; k <= 2; ++k) {
+        float ring = floor(place) + float(k);
+        chosen += step(1.0 - RINGS_CHOSEN, hash_vec3(hash_lattice(ivec3(int(ring), 7, 7), 99u)).x) * max(min(high, ring + 1.0) - max(low, ring), 0.0);
+    }
+    chosen = mix(chosen / width, RINGS_CHOSEN, smoothstep(3.0, 8.0, wide));
+    return (1.0 + disk_point_field_ring_gain * chosen) / (1.0 + RINGS_CHOSEN * disk_point_field_ring_gain);
+}
 
 // Density of the points of one size in one phase of the shear, mean 1. Rings turn rigidly, each at its own Keplerian rate.
 float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
@@ -49,18 +62,17 @@ float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
     float cell = min(floor(around), cells - 1.0);
     uint h = hash_lattice(ivec3(int(ring), int(cell), 0), seed);
     vec3 draw = hash_vec3(h);
-    vec2 offset = vec2(place - ring, around - cell) - 0.5 - 0.5 * (draw.xy - 0.5);
+    vec2 jitter = 0.5 * (draw.xy - 0.5), offset = vec2(place - ring, around - cell) - 0.5 - jitter;
 
-    // A point never gets smaller than the pixel, and keeps its mass; where pixels outgrow cells only the mean is left.
+    // A point never gets smaller than the pixel, but for its cell, which would cut it off and be drawn so, and keeps its mass; where pixels outgrow cells only
+    // the mean is left.
     vec2 pixel = matter.footprint * vec2(rings, cells / 6.2831853);
-    vec2 size = sqrt(POINT_RADIUS * POINT_RADIUS + pixel * pixel);
+    vec2 size = min(sqrt(POINT_RADIUS * POINT_RADIUS + pixel * pixel), 0.5 - abs(jitter));
     float fall = max(1.0 - dot(offset / size, offset / size), 0.0);
     float height = 3.0 / (3.1415927 * size.x * size.y);
     float mass = 3.0 * draw.z * draw.z;
-    float boost = 1.0 + disk_point_field_ring_gain * step(0.93, hash_vec3(hash_lattice(ivec3(int(ring), 7, 7), 99u)).x);
-    boost /= 1.0 + 0.07 * disk_point_field_ring_gain;
-    float kept = 1.0 - smoothstep(0.2, 0.6, max(pixel.x, pixel.y));
-    return boost * mix(1.0, height * mass * fall * fall, kept);
+    float kept = 1.0 - smoothstep(0.3, 0.8, max(pixel.x, pixel.y));
+    return ring_boost(place, pixel.x) * mix(1.0, height * mass * fall * fall, kept);
 }
 
 float points_of_phase(DiskMatter matter, float age, float seed) {

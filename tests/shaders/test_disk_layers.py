@@ -117,3 +117,26 @@ def test_the_pattern_turns_with_the_matter(density) -> None:
         after = density("turbulence", 48.5, (shift, shift + 2 * math.pi), **facts)[0]
         # 0.99: in one of 96 units the two patterns' weights change by 3e-2 at most near a maximum
         assert np.corrcoef(before, after)[0, 1] > 0.99
+
+
+FINER = 4
+
+
+@pytest.mark.parametrize("footprint, bound", [((4e-3, 4e-3), 0.42), ((1.2e-2, 2e-3), 0.95)], ids=str)
+def test_points_and_rings_finer_than_a_pixel_are_their_mean(density, footprint: tuple[float, float], bound: float) -> None:
+    """Against the mean of 16 places in each pixel, each with a sixteenth of it for its own: root mean square difference, over a mean density of 1.
+
+    Half of a random pattern is below what one place can tell. What was seen was the rest: points that had grown beyond their cells and were cut off there drew the
+    lattice, and boosted rings were taken at the middle of the pixel alone (0.47 and 1.08; now 0.37 and 0.82).
+    """
+
+    def drawn(right: float, up: float, own: tuple[float, float]) -> np.ndarray:
+        low = 3.5 * (1.0 + footprint[0] * up)
+        turned = footprint[1] * right
+        radii = low, low * (1.0 + HEIGHT * footprint[0])  # nearly even steps of ln r
+        return density("point_field", 40.0, (turned, turned + WIDTH * footprint[1]), radii, own, disk_point_field_turbulence=0.0)
+
+    shifts = [(k + 0.5) / FINER - 0.5 for k in range(FINER)]
+    mean = np.mean([drawn(x, y, (footprint[0] / FINER, footprint[1] / FINER)) for x in shifts for y in shifts], axis=0)
+    found = float(np.sqrt(np.mean((drawn(0.0, 0.0, footprint) - mean) ** 2)))
+    assert found < bound, found
