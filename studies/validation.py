@@ -9,7 +9,7 @@ import numpy as np
 
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.methods import MAX_STEPS
-from blackhole_gl.physics import observer, relativity
+from blackhole_gl.physics import deflection, observer
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
@@ -91,7 +91,7 @@ def _deflections(renderer: Renderer) -> list[Deflection]:
         direction = listed_rays.trace_by_shader(renderer, scene, rays).direction
         aside = observer.observe(scene).e_phi
         found[model] = np.arctan2(-direction @ aside, direction @ inward)
-    exact, weak = relativity.deflection(np.array(IMPACTS)), relativity.weak_deflection(np.array(IMPACTS))
+    exact, weak = deflection.exact(np.array(IMPACTS)), deflection.weak(np.array(IMPACTS))
     # Directions are the same after a whole turn; the exact value says how many there were.
     found = {model: angle + 2.0 * np.pi * np.round((exact - angle) / (2.0 * np.pi)) for model, angle in found.items()}
     return [Deflection(b, float(weak[i]), float(exact[i]), {model: float(angle[i]) for model, angle in found.items()}) for i, b in enumerate(IMPACTS)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 from tests import shape_checks  # noqa: F401  # before what it checks is imported
@@ -13,6 +14,20 @@ import pytest
 from blackhole_gl.plan import plan
 from blackhole_gl.render.context import BACKENDS, ContextError, create_headless
 from blackhole_gl.render.frame import Renderer
+
+_create_context, _created_in = moderngl.create_context, []
+
+
+def _create_the_only_context(*args: object, **named: object) -> moderngl.Context:
+    """A second context in one process corrupts the heap, which shows up tests later, or never: it fails where it is made."""
+    if _created_in:
+        pytest.fail(f"a second GL context in one process: the first was made in {_created_in[0]}. Use the fixture `ctx`, or a process of its own.")
+    made = _create_context(*args, **named)
+    _created_in.append(os.environ.get("PYTEST_CURRENT_TEST", "a conftest"))
+    return made
+
+
+moderngl.create_context = _create_the_only_context
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import traceback
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,7 +16,7 @@ import glfw
 import moderngl
 
 from ..resources import user_config_dir
-from ..scene import Scene, catalogue
+from ..scene import Scene
 from . import (
     bar,
     commands,
@@ -30,11 +30,13 @@ from . import (
     runner,
     scene_files,
     search_window,
+    shader_watch,
     view_scale,
     window_settings,
 )
 from .area import Area
 from .ending import Ending
+from .escape import Escape
 from .failure import Failure
 from .file_dialog import FileDialog
 from .full_screen import FullScreen
@@ -50,6 +52,7 @@ from .picture import Picture
 from .picture_window import PictureWindow
 from .preparation import Preparation
 from .search_window import SearchWindow
+from .shader_watch import ShaderWatch
 from .shortcuts import Layout, Shortcuts
 from .side_by_side import SideBySide
 from .start_line import StartLine
@@ -61,7 +64,6 @@ from .way_out import WayOut
 _PREPARING_FPS = 20.0  # while another process compiles: it has the processor, and the panel still answers
 _FIRST_FRAME_S = 1.0 / 60.0  # a movement that begins now has not been going on while the window slept
 _LONGEST_FRAME_S = 0.5
-_RELOAD_PERIOD_S = 0.5
 
 
 class Driver(Protocol):
@@ -182,7 +184,7 @@ class Window:
         self._search = SearchWindow()
         self.dialog = FileDialog()
         self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
-        self._had_popup = False
+        self._escape = Escape()
         self.failure = Failure()
         self._bar = bar.toolbar(self.failure.kept_from(self.draw_bar))
         self._picture_folder = picture_folder
@@ -193,14 +195,14 @@ class Window:
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
         self._may_idle = may_idle
-        self._next_reload = 0.0
+        self._shader_watch = ShaderWatch()
         self._was_moving = False
         self._editing = Editing(scene)
 
     def open(self, scene: Scene, preset_names: Sequence[str] = (), *, any_file: bool = False) -> None:
         """Starts afresh on `scene`, made from the presets of these names, or from none."""
         self.state = preset_switch.start(scene, preset_names, any_file=any_file)
-        self.state.shader_error = _shader_mistakes(())
+        self.state.shader_error = shader_watch.mistakes()
         self._panel = Panel()
 
     def _read_keys(self) -> keys.Bindings:
@@ -252,7 +254,7 @@ class Window:
         pressed, held = self._shortcuts.poll(state.panel_keys)
         for name in pressed:
             self.do(name)
-        self._escape()
+        self._escape.poll(state)
         hand = commands.Hand(*self._mouse.poll(view.height), held)
         state.dragging = self._mouse.drags
         commands.advance(state, hand, dt, passed - dt)
@@ -323,25 +325,6 @@ class Window:
         else:
             commands.COMMANDS[action](self.state)
 
-    def _escape(self) -> None:
-        """ESC puts away the uppermost thing that can be put away; a field that is typed in leaves by itself."""
-        state = self.state
-        had_popup, self._had_popup = self._had_popup, imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
-        if not imgui.is_key_pressed(imgui.Key.escape, False) or imgui.get_io().want_text_input:
-            return
-        if had_popup or self._had_popup:  # where keys work the panel, imgui has closed it
-            imgui.internal.close_popups_except_modals()
-        elif state.panel_keys:
-            state.panel_keys = False
-        elif state.show_search:
-            state.show_search = False
-        elif state.show_picture_window:
-            state.show_picture_window = False
-        elif state.show_help:
-            state.show_help = False
-        else:
-            state.full_screen = False
-
     def view(self) -> _View:
         """Where the picture goes now."""
         io = imgui.get_io()
@@ -391,28 +374,12 @@ class Window:
             state.picture_wanted = pixels is None and not failed
 
     def _reload_shaders(self) -> None:
-        """Takes up shader files that were edited. The mistakes in them are shown; the programs they would replace stay."""
-        now = glfw.get_time()
-        if now < self._next_reload:
-            return
-        self._next_reload = now + _RELOAD_PERIOD_S
+        """Takes up shader files that were edited. The mistakes in them are shown."""
         programs = self.picture.renderer.programs
-        before = programs.errors
-        try:
-            errors = programs.reload()
-        except OSError:  # an editor is replacing the file: the next look finds it whole
-            return
-        if errors is before:
-            return  # the very list: no file has changed
-        self.state.shader_error = _shader_mistakes(errors)
-        self.picture.forget()
-        self.side_by_side.reload()
-
-
-def _shader_mistakes(errors: Iterable[Exception]) -> str | None:
-    """What is wrong with the shaders on disk: plug-ins of the user's that were left out at the start, and `errors`; None when nothing is."""
-    left_out = (f"{mistake}. It is left out until it is mended and the program started again." for mistake in catalogue.mistakes())
-    return "\n\n".join([*left_out, *map(str, errors)]) or None
+        if self._shader_watch.takes_up(programs, glfw.get_time()):
+            self.state.shader_error = shader_watch.mistakes(programs.errors)
+            self.picture.forget()
+            self.side_by_side.reload()
 
 
 def _key_name(key: int) -> str | None:

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..shapes import Bool, Float, Int
+from .deflection import carlson_rf
 from .observer import Observer, local_directions, parallel_rays
-from .relativity import carlson_rf, critical_curve, horizon_radius, shadow_angle
+from .relativity import critical_curve, horizon_radius, shadow_angle
 
 Array = np.ndarray
 

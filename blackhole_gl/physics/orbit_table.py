@@ -18,7 +18,8 @@ import math
 import numpy as np
 
 from ..shapes import Float
-from .relativity import CRITICAL_IMPACT, carlson_rf
+from .deflection import carlson_rf
+from .relativity import CRITICAL_IMPACT
 
 Array = np.ndarray
 

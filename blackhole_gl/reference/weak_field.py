@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ..physics import relativity
+from ..physics import deflection, relativity
 from .events import IN_PLANE
 from .flat import l_z_of_straight_rays
 from .hits import CAPTURED, ESCAPED, Crossings, Traced
@@ -33,7 +33,7 @@ def weak_field(view: View, second_order: bool = True) -> Traced:
     below = b < relativity.CRITICAL_IMPACT
     inward = psi < 0.5 * np.pi
     captured = (inward | ~below) if inner else (inward & below)
-    bend = 0.5 * (1.0 + np.cos(psi)) * relativity.weak_deflection(np.maximum(b, 1e-6), 2 if second_order else 1)
+    bend = 0.5 * (1.0 + np.cos(psi)) * deflection.weak(np.maximum(b, 1e-6), 2 if second_order else 1)
     leaving = np.pi - psi + bend
     corner = np.where(inward, 0.5 * np.pi - psi, 0.0)
     if at_infinity:

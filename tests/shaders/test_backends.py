@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import moderngl
 import numpy as np
 import pytest
 
@@ -111,3 +112,9 @@ def test_without_any_library_the_error_has_the_line_that_installs_one(monkeypatc
         context.create_headless("auto")
     assert "libEGL.so.1 not found" in str(caught.value)
     assert context.INSTALL_LINE in str(caught.value) and context.OSMESA_LINE in str(caught.value)
+
+
+def test_a_second_context_in_a_test_process_fails_where_it_is_made(ctx: moderngl.Context) -> None:
+    """It would corrupt the heap (tests/conftest.py)."""
+    with pytest.raises(pytest.fail.Exception, match="a second GL context in one process"):
+        context.create_headless()

@@ -126,8 +126,8 @@ FINER = 4
 def test_points_and_rings_finer_than_a_pixel_are_their_mean(density, footprint: tuple[float, float], bound: float) -> None:
     """Against the mean of 16 places in each pixel, each with a sixteenth of it for its own: root mean square difference, over a mean density of 1.
 
-    Half of a random pattern is below what one place can tell. What was seen was the rest: points that had grown beyond their cells and were cut off there drew the
-    lattice, and boosted rings were taken at the middle of the pixel alone (0.47 and 1.08; now 0.37 and 0.82).
+    What one place cannot tell of a random pattern remains. What was seen was the rest: points that had grown beyond their cells and were cut off there drew
+    the lattice, and boosted rings were taken at the middle of the pixel alone (0.47 and 1.08; now 0.37 and 0.82).
     """
 
     def drawn(right: float, up: float, own: tuple[float, float]) -> np.ndarray:
