@@ -9,19 +9,35 @@ from imgui_bundle import hello_imgui, imgui
 from ..render import labels
 from ..render.annotation import pieces
 from ..render.views import Colour
+from ..scene import Scene
 from . import theme
 from .overlay import Corner
 from .state import WindowState
 
 
-def draw(state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
-    """Draws the labels over the picture, whose top left is `corner`. None while the camera moves: closed forms take longer than a frame."""
-    if not state.scene.post.labels or state.camera_moves or size[1] < 1.0:
-        return
-    try:
-        shown = labels.of(state.scene, size[0] / size[1])
-    except ValueError:  # the picture fails for the same reason, which is told
-        return
+class LabelOverlay:
+    """Remembers what the labels that are there are of."""
+
+    def __init__(self) -> None:
+        self._of: tuple[Scene, float] | None = None
+
+    def draw(self, state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
+        """Draws the labels over the picture, whose top left is `corner`. While the camera moves only those that are there, as where it turns about the spin
+        axis: closed forms take longer than a frame."""
+        if not state.scene.post.labels or size[1] < 1.0:
+            return
+        of = labels.shape_of(state.scene), size[0] / size[1]
+        if state.camera_moves and of != self._of:
+            return
+        try:
+            shown = labels.of(state.scene, size[0] / size[1])
+        except ValueError:  # the picture fails for the same reason, which is told
+            return
+        self._of = of
+        _draw(shown, corner, size)
+
+
+def _draw(shown: labels.Labels, corner: Corner, size: tuple[float, float]) -> None:
     canvas, em = imgui.get_background_draw_list(), hello_imgui.em_size()
     canvas.push_clip_rect(corner, (corner[0] + size[0], corner[1] + size[1]))
 

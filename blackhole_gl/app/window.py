@@ -24,7 +24,6 @@ from . import (
     help_window,
     kept,
     keys,
-    label_overlay,
     overlay,
     preset_switch,
     runner,
@@ -41,6 +40,7 @@ from .failure import Failure
 from .file_dialog import FileDialog
 from .full_screen import FullScreen
 from .gesture import Editing, Gesture
+from .label_overlay import LabelOverlay
 from .live_chart import LiveChart
 from .mouse import Mouse
 from .mouse_values import MouseValues
@@ -192,6 +192,7 @@ class Window:
         self.live_chart = LiveChart(make_renderer)
         self.path_view = PathView()
         self._mouse_values = MouseValues()
+        self._labels = LabelOverlay()
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
         self._may_idle = may_idle
@@ -266,7 +267,7 @@ class Window:
         overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         self._mouse_values.frame(state, (view.left, view.top), (view.width, view.height))
-        label_overlay.draw(state, (view.left, view.top), (view.width, view.height))
+        self._labels.draw(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
         foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))

@@ -80,14 +80,14 @@ def of(scene: Scene, aspect: float) -> Labels:
     Raises:
         SceneError, ValueError: the scene cannot be drawn; the text says why.
     """
-    return _of(_shape_of(scene), aspect)
+    return _of(shape_of(scene), aspect)
 
 
-def _shape_of(scene: Scene) -> Scene:
-    """`scene` with nothing but what labels depend on, so that a slider of colours finds those that are there."""
+def shape_of(scene: Scene) -> Scene:
+    """`scene` with nothing but what labels depend on, so that a slider of colours, or a turn about the axis, finds those that are there."""
     disk, bare = scene.disk, Scene()
     bare_disk = replace(bare.disk, enabled=disk.enabled, inner_radius=disk.inner_radius, outer_radius=disk.outer_radius, orbit=disk.orbit)
-    return replace(bare, hole=scene.hole, camera=scene.camera, rays=scene.rays, disk=bare_disk)
+    return replace(bare, hole=scene.hole, camera=replace(scene.camera, azimuth_deg=0.0), rays=scene.rays, disk=bare_disk)
 
 
 @lru_cache(maxsize=4)

@@ -181,7 +181,7 @@ class Post:
     labels: bool = switch(
         False,
         "Names and outlines, where closed forms put them: shadow, innermost stable orbit, rings by order, approaching and receding side. Saved pictures have "
-        "them too; in the window they wait while the camera moves.",
+        "them too; in the window they wait while the camera moves, but where it turns about the spin axis.",
     )
     legend: bool = switch(True, "Draw a view's colours and scale into saved pictures of it; the window always shows them.")
     exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light; on top of what automatic exposure finds.")

@@ -491,7 +491,7 @@ def values_under_the_mouse(hands: Hands) -> None:
 
 
 def labels_by_key(hands: Hands) -> None:
-    """L names what the picture shows while the camera rests, and nothing is worked out while it moves."""
+    """L names what the picture shows while the camera rests or turns about the axis, and nothing is worked out while it moves otherwise."""
     asked, of = [], labels.of
     labels.of = lambda *given: asked.append(given[0]) or of(*given)
     try:
@@ -505,7 +505,11 @@ def labels_by_key(hands: Hands) -> None:
         hands.context.mouse_move_to_pos((x + 60, y))
         asked.clear()
         hands.context.yield_(3)
-        assert not asked
+        assert hands.state.camera_moves and asked and of(asked[-1], 1.6) is of(hands.scene, 1.6)
+        hands.context.mouse_move_to_pos((x + 60, y + 40))
+        asked.clear()
+        hands.context.yield_(3)
+        assert hands.state.camera_moves and not asked
         hands.context.mouse_up(0)
         hands.settle()
         hands.context.yield_(3)

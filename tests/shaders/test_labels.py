@@ -132,8 +132,9 @@ def test_names_stand_clear_of_one_another() -> None:
             assert (np.diff(heights) >= 0.0499).all()
 
 
-def test_a_slider_of_colours_works_nothing_out() -> None:
+def test_a_slider_of_colours_or_a_turn_about_the_axis_works_nothing_out() -> None:
     scene = presets.load(["kerr"])
+    assert labels.of(scene.with_values({"camera.azimuth_deg": 120.0}), 1.6) is labels.of(scene, 1.6)
     assert labels.of(scene.with_values({"post.exposure": 2.0, "disk.temperature_k": 9000.0}), 1.6) is labels.of(scene, 1.6)
 
 
