@@ -51,7 +51,7 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
 
 def _finish() -> list[str]:
     """How an instance looks, as a record, and numbers for the options of its choices, such as ``SURFACE_CHECKER``."""
-    types = {"choice": "int", "switch": "bool", "list": "vec3"}
+    types = {"choice": "int", "file": "int", "switch": "bool", "list": "vec3"}
     members = (f"{types.get(item.kind, item.kind)} {key};" for key, item in surfaces.SURFACE.items())
     options = ((f"{key}_{word}", number) for key, item in surfaces.SURFACE.items() for number, word in enumerate(item.options))
     return [f"struct Finish {{ {' '.join(members)} }};", *(f"#define {name.upper()} {number}" for name, number in options)]

@@ -119,7 +119,7 @@ class Pictures:
         width, height = _layer_size(pictures)
         data = b"".join(_resized(picture, (width, height)).tobytes() for picture in pictures)
         texture = self._ctx.texture_array((width, height, len(pictures)), 4, data, dtype="f2")
-        texture.repeat_x = texture.repeat_y = False
+        texture.repeat_x, texture.repeat_y = True, False  # round a globe the last column meets the first
         self._finish(texture)
         return texture
 

@@ -15,7 +15,7 @@ from ..physics import observer, shear
 from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REACH_STEP, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
-from . import instances
+from . import instances, pictures
 
 _RAY_MEMBERS = (
     ("observer_map", "mat4"),  # (E, w', n'_θ, n'_φ) from (1, n_r, n_θ, n_φ); see observer.py
@@ -170,6 +170,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_STEP": REACH_STEP}
     found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
+    found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
     for key, name in _switch_names():

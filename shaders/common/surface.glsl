@@ -1,5 +1,7 @@
 // How a surface looks that has the parameters of blackhole_gl/scene/surfaces.py: what is painted on it, and its light. `Finish` holds the parameters of one instance.
 
+#include "common/pictures.glsl"
+
 // A place on a surface: its pattern repeats with u, 0…1 once around, and v goes 0…1 along; `right` and `up` are the changes of both to the next pixels.
 struct Painted {
     vec2 at, right, up;
@@ -13,6 +15,12 @@ float square_wave(float x, float width) {
 }
 
 vec3 painted_colour(Finish finish, Painted painted) {
+#if INSTANCE_PICTURES
+    if (finish.surface == SURFACE_IMAGE) {
+        vec4 paint = picture_light(instance_pictures, finish.image, vec2(painted.at.x + 0.5, painted.at.y), painted.right, painted.up);
+        return paint.rgb + (1.0 - paint.a) * finish.colour;
+    }
+#endif
     if (finish.surface != SURFACE_CHECKER) return finish.colour;
     vec2 squares = vec2(2 * ((finish.squares_around + 1) / 2), finish.squares_along);
     vec2 width = clamp((abs(painted.right) + abs(painted.up)) * squares, 1e-3, 1e3);

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+import pytest
+from PIL import Image
 
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import motion, moving_matter
 from blackhole_gl.physics.observer import observe
 from blackhole_gl.plan import plan
 from blackhole_gl.render.frame import Renderer
-from blackhole_gl.scene import Scene, presets
+from blackhole_gl.scene import Scene, SceneError, presets
 
 
 def _scene(*names: str, **values: object) -> Scene:
@@ -155,3 +159,54 @@ def test_what_a_surface_looks_like_traces_nothing_anew(renderer: Renderer) -> No
         assert not renderer.render(scene, 0.0, (32, 18)).traced, name
     assert renderer.render(scene.with_values({"things.moon.radius": 2.0}), 0.0, (32, 18)).traced
     assert renderer.programs.compiled == compiled
+
+
+def _painted(file: Path, light: np.ndarray) -> str:
+    """Writes `light`, linear (rows from the north, columns from 180° W, 3), as a picture."""
+    code = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1.0 / 2.4) - 0.055)
+    Image.fromarray(np.rint(255.0 * code).astype(np.uint8)).save(file)
+    return str(file)
+
+
+def _glowing(file: str, **values: object) -> Scene:
+    looks = {"surface": "image", "image": file, "lighting": "glowing", "frequency_shift": False}
+    return _scene("kerr", **{"x": 0.0, "z": 6.0, "radius": 3.0, **looks, **values}).with_values(QUIET)
+
+
+def test_a_picture_lies_round_a_ball_by_longitude_and_latitude_without_a_seam(renderer: Renderer, tmp_path: Path) -> None:
+    """Turned with the ball so that the picture's edge is in view; 8-bit codes and the pixel's own width leave 0.02."""
+    longitude = (np.arange(512) + 0.5) / 512 * 2.0 * np.pi - np.pi
+    latitude = np.pi / 2 - (np.arange(256) + 0.5) / 256 * np.pi
+    light = np.stack([*np.broadcast_arrays(0.5 + 0.5 * np.cos(longitude)[None], 0.5 + 0.5 * np.sin(longitude)[None], (0.5 + latitude / np.pi)[:, None])], -1)
+    scene = _glowing(_painted(tmp_path / "globe.png", light), turn_deg=180.0)
+    renderer.render(scene, 0.0, (240, 160))
+    hits = renderer.hits()
+    met = hits.met[..., 0, 0] >= 0
+    arm = hits.met_place[met, 0].astype(float) - (0.0, 0.0, 6.0)
+    inner = (arm[:, 0] > 1.0) & (np.hypot(arm[:, 0], arm[:, 1]) > 0.5)
+    around = np.arctan2(-arm[:, 1], -arm[:, 0])
+    expected = np.stack([0.5 + 0.5 * np.cos(around), 0.5 + 0.5 * np.sin(around), 0.5 + np.arcsin(arm[:, 2] / 3.0) / np.pi], axis=-1)
+    assert np.sum(inner & (np.abs(around) > 3.1)) > 20, "the seam is in view"
+    assert np.max(np.abs(renderer.radiance()[::-1][met] - expected)[inner]) < 0.02
+
+
+def test_a_picture_finer_than_the_pixels_does_not_blink(renderer: Renderer, tmp_path: Path) -> None:
+    """Grains of one texel, black or white, on a small ball that turns: every pixel keeps near the mean, and changes little from frame to frame."""
+    grains = np.repeat(np.random.default_rng(2).integers(0, 2, (512, 1024, 1)), 3, axis=2).astype(float)
+    scene = _glowing(_painted(tmp_path / "grains.png", grains), radius=1.0, turn_rate=0.01)
+    seen = []
+    for time in (0.0, 1.0, 2.0):
+        renderer.render(scene, time, (120, 80))
+        seen.append(renderer.radiance()[::-1])
+    met = renderer.hits().met[..., 0, 0] >= 0
+    assert met.sum() > 30
+    assert all(abs(np.mean(picture[met]) - 0.5) < 0.05 and np.std(picture[met]) < 0.12 for picture in seen)
+    assert np.max(np.abs(seen[1] - seen[0])[met]) < 0.15
+
+
+def test_a_picture_that_is_not_there_is_said_and_no_picture_is_one_colour(renderer: Renderer, tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"things.moon.image: the picture .*missing.png cannot be used"):
+        renderer.render(_glowing(str(tmp_path / "missing.png")), 0.0, (32, 18))
+    renderer.render(_glowing(""), 0.0, (64, 36))
+    met = renderer.hits().met[..., 0, 0] >= 0
+    np.testing.assert_allclose(renderer.radiance()[::-1][met], np.broadcast_to((0.85, 0.8, 0.7), (met.sum(), 3)), atol=1e-3)
