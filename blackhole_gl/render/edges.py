@@ -1,6 +1,7 @@
 """Several rays in the pixels within which what is seen changes: at the shadow's edge and on the rings, which are thinner than a pixel.
 
-They are traced once for a hit map and kept with it; from then on they cost shading alone, and only in those few pixels.
+They are traced once for a hit map and kept with it; from then on they cost shading alone, and only in those few pixels. Where a thing moves, those in the
+squares that it changed are traced anew.
 """
 
 from __future__ import annotations
@@ -9,18 +10,17 @@ import moderngl
 import numpy as np
 
 from .classes import Where, drawn
+from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
 from .programs import Programs
 from .shading import Box, ShadePass
 from .sorting import PixelSorting, hides
+from .squares import Squares
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
-
-# Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
-_BLOCKS_IN_A_ROW, _ROWS = 128, 4
 
 # Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame.
 _MOVING_SIDE = 2
@@ -35,9 +35,6 @@ class EdgeRays:
     Args:
         tables, temperatures: what rays are traced and shaded with; they stay their owner's.
         sorting: of the pixels of sharp maps; so does this.
-
-    Attributes:
-        pixels: column and row of each pixel with several rays, from the bottom left, int (N, 2).
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile, sorting: PixelSorting):
@@ -47,10 +44,15 @@ class EdgeRays:
         self._shade = ShadePass(ctx, programs, tables, temperatures)
         self._places: _Places | None = None
         self._texture: moderngl.Texture | None = None
+        self._held: EdgeBlocks | None = None
         self._blocks: RayBlocks | None = None
         self._radiance: Target | None = None
         self._key: tuple | None = None
-        self.pixels = np.empty((0, 2), int)
+
+    @property
+    def pixels(self) -> np.ndarray:
+        """Column and row of each pixel with several rays, from the bottom left, int (N, 2)."""
+        return np.empty((0, 2), int) if self._held is None else self._held.pixels
 
     def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target) -> None:
         """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`."""
@@ -58,7 +60,8 @@ class EdgeRays:
         plan = inputs.plan
         key = (hit_map.generation, side, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
-            self._trace(inputs, hit_map, side)
+            changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
+            self._trace(inputs, hit_map, side, changed)
             self._key = key
         if self._blocks is None or self._radiance is None or self._places is None:
             return
@@ -85,37 +88,35 @@ class EdgeRays:
         for item in (self._texture, self._radiance, self._places):
             if item is not None:
                 item.release()
-        self._texture, self._radiance, self._places, self._blocks, self._key = None, None, None, None, None
+        self._texture, self._radiance, self._places, self._blocks, self._key, self._held = None, None, None, None, None, None
 
-    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int) -> None:
-        """Finds the pixels at edges, and traces `side`² rays of each; none where that is one."""
-        self.pixels, self._blocks = np.empty((0, 2), int), None
+    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None) -> None:
+        """Finds the pixels at edges, and traces `side`² rays of each, those that stand outside `changed` alone left out; none where that is one."""
+        before, self._held, self._blocks = self._held, None, None
         if side == 1:
             return
-        self.pixels = self._find.find(inputs, hit_map)
-        if not len(self.pixels):
+        pixels = self._find.find(inputs, hit_map)
+        if not len(pixels):
             return
         if self._places is None or self._places.size != inputs.size:
             if self._places is not None:
                 self._places.release()
             self._places = _Places(self._ctx, inputs.size)
-        place = np.arange(len(self.pixels))
-        self._places.write(self.pixels, np.stack([place % _BLOCKS_IN_A_ROW, place // _BLOCKS_IN_A_ROW], axis=-1))
-        self._blocks = self._blocks_of(self.pixels, side)
-        self._map.trace_blocks(inputs, self._blocks)
+        found = before.after(pixels, changed, inputs.size) if before is not None and changed is not None else None
+        self._held, fresh = (EdgeBlocks.of(pixels), None) if found is None else found
+        self._places.write(pixels, self._held.places)
+        self._blocks = self._blocks_of(self._held, side)
+        size = self._blocks.size
+        self._map.trace_blocks(inputs, self._blocks, None if fresh is None else Squares.of(fresh, side, size))
 
-    def _blocks_of(self, pixels: np.ndarray, side: int) -> RayBlocks:
-        """The blocks of `pixels`, (N, 2), and a target for what they show. The last row is filled up with blocks that nobody asks for."""
-        rows = -(-len(pixels) // (_BLOCKS_IN_A_ROW * _ROWS)) * _ROWS
-        filled = np.zeros((rows * _BLOCKS_IN_A_ROW, 2), np.float32)
-        filled[: len(pixels)] = pixels
-        size = _BLOCKS_IN_A_ROW, rows
-        if self._texture is None or self._texture.size != size:
+    def _blocks_of(self, held: EdgeBlocks, side: int) -> RayBlocks:
+        """The blocks of rays, and a target for what they show."""
+        if self._texture is None or self._texture.size != held.size:
             if self._texture is not None:
                 self._texture.release()
-            self._texture = self._ctx.texture(size, 2, dtype="f4")
+            self._texture = self._ctx.texture(held.size, 2, dtype="f4")
             self._texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        self._texture.write(filled.tobytes())
+        self._texture.write(held.pixel_of_block.tobytes())
         made = RayBlocks(side, self._texture)
         if self._radiance is None or self._radiance.size != made.size:
             if self._radiance is not None:

@@ -155,8 +155,8 @@ class HitMap:
         found = self._reach.squares(inputs, np.concatenate([before.balls[moved], now.balls[moved]]))
         return found if len(found) * REACH_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
 
-    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks) -> None:
-        """Traces the rays of `blocks`, all of the picture of `inputs`."""
+    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, changed: Squares | None = None) -> None:
+        """Traces the rays of `blocks`, all of the picture of `inputs`; or those of the blocks `changed` alone, where the map holds the others already."""
         inputs = inputs.drawn_as(blocks.size)
         self._last, self._blocks = inputs, blocks
         rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS)
@@ -164,7 +164,11 @@ class HitMap:
         rays.set(block_side=float(blocks.side))
         self._bind_tables(rays)
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
-        self._trace_rows(rays, target, 0, inputs.size[1])
+        if changed is None:
+            self._trace_rows(rays, target, 0, inputs.size[1])
+        else:
+            self._trace_squares(rays, target, changed)
+        self._changed = None if changed is None else (self.generation, changed)
         self._key, self.generation = None, next(_GENERATIONS)
         self.traces += 1
 

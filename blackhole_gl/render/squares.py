@@ -67,7 +67,9 @@ class SquareBuffer:
         return self._ctx.vertex_array(program, [(self._buffer, "3f", "square")] if "square" in program else [])
 
     def draw(self, array: moderngl.VertexArray, squares: Squares) -> None:
-        """Draws `squares` of the bound target."""
+        """Draws `squares` of the bound target; none where there are none."""
+        if not len(squares):
+            return
         data = squares.points.tobytes()
         if len(data) > self._buffer.size:
             self._buffer.orphan(2 * len(data))

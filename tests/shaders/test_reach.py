@@ -10,9 +10,11 @@ import pytest
 
 from blackhole_gl.plan import REACH_STEP, plan
 from blackhole_gl.render import reach
+from blackhole_gl.render.edge_blocks import EdgeBlocks
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.render.squares import Squares
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)
@@ -136,8 +138,8 @@ def test_a_refined_map_sharpens_while_a_sphere_moves(renderer: Renderer) -> None
 
 
 def test_the_picture_is_that_of_a_fresh_map(renderer: Renderer) -> None:
-    """Sky and sorting of the pixels are made anew in the changed squares alone; nothing stale is left, and no square is seen."""
-    scene, fresh = _ten(), Renderer(renderer.ctx)
+    """Sky, sorting of the pixels and rays at edges are made anew in the changed squares alone; nothing stale is left, and no square is seen."""
+    scene, fresh = _ten(**{"rays.edges": 2}), Renderer(renderer.ctx)
     renderer.hit_map.forget()
     for time in np.arange(0, 12) * 2.3:
         renderer.render(scene, time, SIZE)
@@ -155,6 +157,21 @@ def test_what_is_not_bound_to_a_place_is_traced_whole(renderer: Renderer, values
     """A ring about the hole may be seen anywhere; parallel rays and steps that find their own lengths tell nothing by their neighbours."""
     made = plan(_scene(**values))
     assert made.reach_steps == 0 and made.refine_px == 0.0
+
+
+def test_blocks_at_edges_that_stand_keep_their_places_and_freed_ones_are_used() -> None:
+    size = (64, 64)
+    before = EdgeBlocks.of(np.array([[1, 1], [9, 1], [20, 20], [40, 3]]))
+    changed = Squares.of(np.array([[1, 0], [5, 0]]), 8, size)
+    found = before.after(np.array([[1, 1], [10, 1], [21, 20], [20, 20]]), changed, size)
+    assert found is not None
+    after, fresh = found
+    assert after.numbers[0] == before.numbers[0] and after.numbers[3] == before.numbers[2], "outside the squares, and there before"
+    assert len(set(after.numbers)) == 4 and {tuple(place) for place in fresh} == {tuple(place) for place in after.places[1:3]}
+    assert before.numbers[1] in after.numbers, "its pixel is at no edge now"
+    np.testing.assert_array_equal(after.pixel_of_block[after.numbers], after.pixels)
+    full = EdgeBlocks.of(np.stack(np.divmod(np.arange(512), 64)[::-1], axis=-1))
+    assert full.after(np.stack(np.divmod(np.arange(600), 64)[::-1], axis=-1), changed, size) is None
 
 
 def test_many_balls_are_gathered_into_few_that_hold_them() -> None:

@@ -1,0 +1,69 @@
+"""Which pixel at an edge has which block of rays: where some of the picture has changed, blocks whose pixel lies in the rest are kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..shapes import Int
+from .squares import Squares
+
+# Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
+_IN_A_ROW, _ROWS = 128, 4
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeBlocks:
+    """Pixels at edges and their blocks.
+
+    Attributes:
+        pixels: column and row of each, from the bottom left, int (N, 2).
+        numbers: of each pixel's block, row by row, int (N,).
+        rows: of blocks that the map has room for; some are nobody's.
+    """
+
+    pixels: Int[np.ndarray, "pixels 2"]
+    numbers: Int[np.ndarray, " pixels"]
+    rows: int
+
+    @classmethod
+    def of(cls, pixels: Int[np.ndarray, "pixels 2"]) -> EdgeBlocks:
+        """Blocks for `pixels`, one after the other."""
+        return cls(pixels, np.arange(len(pixels)), -(-len(pixels) // (_IN_A_ROW * _ROWS)) * _ROWS)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Blocks along each axis of the map."""
+        return _IN_A_ROW, self.rows
+
+    @property
+    def places(self) -> Int[np.ndarray, "pixels 2"]:
+        """Column and row of each pixel's block."""
+        return _places(self.numbers)
+
+    @property
+    def pixel_of_block(self) -> np.ndarray:
+        """Each block's pixel, row by row, float32 (blocks, 2); 0 for those that are nobody's."""
+        found = np.zeros((_IN_A_ROW * self.rows, 2), np.float32)
+        found[self.numbers] = self.pixels
+        return found
+
+    def after(self, pixels: Int[np.ndarray, "pixels 2"], changed: Squares, size: tuple[int, int]) -> tuple[EdgeBlocks, Int[np.ndarray, "fresh 2"]] | None:
+        """The blocks once `changed` of a picture of `size` are other than before and `pixels` are at edges, and the places of those whose rays are still to be
+        traced; None where there is no room for them."""
+        old, new = (picked[:, 1] * size[0] + picked[:, 0] for picked in (self.pixels, pixels))
+        standing = np.flatnonzero(~changed.holds(self.pixels, size))
+        _, of_old, of_new = np.intersect1d(old[standing], new, assume_unique=True, return_indices=True)
+        numbers = np.full(len(pixels), -1)
+        numbers[of_new] = self.numbers[standing[of_old]]
+        fresh = numbers < 0
+        free = np.setdiff1d(np.arange(_IN_A_ROW * self.rows), numbers[~fresh], assume_unique=True)
+        if len(free) < np.count_nonzero(fresh):
+            return None
+        numbers[fresh] = free[: np.count_nonzero(fresh)]
+        return EdgeBlocks(pixels, numbers, self.rows), _places(numbers[fresh])
+
+
+def _places(numbers: np.ndarray) -> np.ndarray:
+    return np.stack([numbers % _IN_A_ROW, numbers // _IN_A_ROW], axis=-1)
