@@ -1,8 +1,9 @@
 """What one way of drawing a frame takes of another's processor time: the two in turn, and the median of the pairs' ratios.
 
-    LP_NUM_THREADS=1 python tools/time_pairs.py [--size 1280x720] [--rounds 40] [--preset kerr]
+    LP_NUM_THREADS=1 python tools/time_pairs.py [--size 1280x720] [--rounds 40] [--preset kerr] [--set rays.lensing=false] [--only edges]
 
 glow: a picture at rest while time runs, its glow made for every second frame, against one made for each.
+edges: a picture under a moving camera with several rays in the pixels at edges, against one ray in each.
 stars: a picture of half the size under a moving camera, enlarged with its stars drawn over it, against one that is only enlarged.
 """
 
@@ -36,6 +37,16 @@ def glow(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frame
     return lambda number: frames(number, lasts=True), lambda number: frames(number, lasts=False)
 
 
+def edges(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """The camera tilts by half a degree a frame."""
+
+    def frame(number: int, rays: int) -> None:
+        turned = scene.with_values({"camera.inclination_deg": 60.0 + 0.5 * (number % 20) + 0.01 * rays, "rays.edges": rays})
+        renderer.render(turned, FRAME_S * number, size, progressive=True)
+
+    return lambda number: frame(number, scene.rays.edges), lambda number: frame(number, 1)
+
+
 def stars(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
     """The window's own way of showing such a picture, and the same without the layer."""
     area = Area(0, 0, *size)
@@ -62,6 +73,9 @@ class _NoStars:
         pass
 
 
+COMPARED = {"glow": glow, "edges": edges, "stars": stars}
+
+
 def spent(renderer: Renderer, frames: Frames, number: int) -> float:
     """Milliseconds of processor time."""
     renderer.ctx.finish()
@@ -76,10 +90,12 @@ def main() -> None:
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--rounds", type=int, default=40)
     parser.add_argument("--preset", action="append")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    parser.add_argument("--only", choices=COMPARED)
     given = parser.parse_args()
     width, height = (int(side) for side in given.size.split("x"))
-    renderer, scene = Renderer(create_headless()), presets.load(given.preset or ["kerr"])
-    for compare in (glow, stars):
+    renderer, scene = Renderer(create_headless()), presets.load(given.preset or ["kerr"], dict(pair.split("=", 1) for pair in given.set))
+    for compare in [COMPARED[given.only]] if given.only else COMPARED.values():
         new, old = compare(renderer, scene, (width, height))
         taken = [(spent(renderer, new, number), spent(renderer, old, number)) for number in range(-3, given.rounds)][3:]
         low, _, high = quantiles((a / b for a, b in taken), n=4)

@@ -54,9 +54,13 @@ class EdgeRays:
         """Column and row of each pixel with several rays, from the bottom left, int (N, 2)."""
         return np.empty((0, 2), int) if self._held is None else self._held.pixels
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target) -> None:
-        """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`."""
-        side = _side(inputs.plan.scene.rays.edges, hit_map.is_sharp)
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, moving: bool = False) -> None:
+        """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`.
+
+        Args:
+            moving: fewer rays will do, as for every map that is not sharp.
+        """
+        side = _side(inputs.plan.scene.rays.edges, moving=moving or not hit_map.is_sharp)
         plan = inputs.plan
         key = (hit_map.generation, side, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
@@ -74,6 +78,11 @@ class EdgeRays:
         with drawn(self._ctx, resolve, Where(">", _BETWEEN)):
             resolve.draw()
         self._ctx.scissor = None
+
+    @property
+    def rays_a_pixel(self) -> int:
+        """Of the pixels that have several; 1 where none has."""
+        return self._blocks.side**2 if self._blocks else 1
 
     @property
     def traces(self) -> int:
@@ -127,11 +136,11 @@ class EdgeRays:
         return made
 
 
-def _side(asked: int, is_sharp: bool) -> int:
+def _side(asked: int, *, moving: bool) -> int:
     """Rays along each axis: even where there are several, as changes are taken between two and two of them."""
     if asked == 1:
         return 1
-    return asked + asked % 2 if is_sharp else _MOVING_SIDE
+    return _MOVING_SIDE if moving else asked + asked % 2
 
 
 class _Places:

@@ -117,7 +117,7 @@ class Renderer:
             viewport: (x, y, width, height) in the target; the whole picture at (0, 0) when None.
             measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
-                further call for the same hits makes a slice of the picture exact, until the report says that it is sharp.
+                further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays.
             glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``.
             shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
 
@@ -130,7 +130,7 @@ class Renderer:
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
-        radiance = self._shaded_with_edges(inputs)
+        radiance = self._shaded_with_edges(inputs, moving=progressive)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -326,11 +326,11 @@ class Renderer:
             self._shade.draw(inputs, hit_map, self._radiance.frame)
         return self._radiance
 
-    def _shaded_with_edges(self, inputs: FrameInputs) -> Target:
+    def _shaded_with_edges(self, inputs: FrameInputs, *, moving: bool = False) -> Target:
         """The same of the own hit map, with several rays in the pixels at edges."""
         radiance = self._shaded(inputs, self.hit_map)
         if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance)
+            self.edges.draw(inputs, self.hit_map, radiance, moving=moving)
         return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:

@@ -178,6 +178,17 @@ def test_a_picture_at_rest_keeps_its_rings(renderer: Renderer) -> None:
     assert errors[1] < 0.5 * errors[0]
 
 
+@pytest.mark.parametrize("values", [{"rays.lensing": False}, {"rays.refine": False}])
+def test_pixels_at_edges_have_fewer_rays_while_the_camera_moves(renderer: Renderer, values: dict) -> None:
+    """Whatever the map: that of a method that is not refined is sharp in every frame, and sixteen rays were traced anew in each. They are there at rest."""
+    scene = presets.load(["kerr"], values)
+    rays = []
+    for moving in (True, False):
+        renderer.render(scene, 1.0, SMALL, progressive=moving)
+        rays.append(renderer.edges.rays_a_pixel)
+    assert rays == [4, 16]
+
+
 def test_edges_of_a_sharp_map_take_no_pass_of_their_own(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     """A moving camera has them found anew in every frame: two passes over the whole picture took a fifth of a frame's time in flat space."""
     asked, plain = [], renderer.programs.get
