@@ -16,11 +16,11 @@ from ..plan import Plan
 from ..scene import Instance, Scene, catalogue, met, surfaces
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field, Value, number_of
-from . import hierarchy, lamps, pictures
+from . import hierarchy, lamps, meshes, pictures
 
 _NUMBERS = ("float", "int", "switch", "choice")
 """Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the
-options, a picture by its layer in the array of pictures, −1 for none."""
+options, a picture by its layer in the array of pictures and a mesh by the first node of its hierarchy, −1 for none."""
 
 _MOTION = ("bound", "velocity", "spin", "attitude")
 """A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
@@ -33,6 +33,8 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
     lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
     if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):
         lines.append(f"uniform sampler2DArray {pictures.ARRAY};")
+    if any(meshes.is_mesh(item) for kind in kinds for item in kind.parameters.values()):
+        lines.append(f"uniform sampler2D mesh_nodes, mesh_triangles;\n#define MESH_TEXELS {meshes.TEXELS}\n#define MESH_ROW {meshes.ROW}")
     lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
@@ -107,9 +109,13 @@ class InstanceTables:
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
         if self._made is None or self._made[0] is not plan or self._made[1] != time and _anything_moves(plan):
-            rows = [_rows(kind, plan, time) for kind in used(plan.scene)]
+            found = meshes.of(plan.scene)
+            files = {**pictures.layers(plan.scene), **(found.roots if found else {})}
+            rows = [_rows(kind, plan, time, files) for kind in used(plan.scene)]
             tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(used(plan.scene), rows)}
             tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": _nodes([table[:, 0] for table in rows])}
+            if found:
+                tables |= {"mesh_nodes": found.nodes, "mesh_triangles": found.triangles}
             self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
         return self._made[2]
 
@@ -154,7 +160,7 @@ def _width(item: Field) -> int:
     """Numbers that shaders are given for it; 0: they do not know it."""
     if item.kind == "list":
         return int(item.low) if item.low == item.high and 2 <= item.low <= 4 and item.element is not None and item.element.kind in ("float", "int") else 0
-    return int(item.kind in _NUMBERS or pictures.is_picture(item))
+    return int(item.kind in _NUMBERS or pictures.is_picture(item) or meshes.is_mesh(item))
 
 
 def _places(kind: PlugIn) -> tuple[list[tuple[Field, int]], int]:
@@ -173,22 +179,21 @@ def _motion_names(kind: PlugIn) -> tuple[str, ...]:
     return _MOTION if kind.traits.moves else _MOTION[:1]
 
 
-def _rows(kind: PlugIn, plan: Plan, time: float) -> np.ndarray:
-    """float32 (instances, columns, 4)."""
+def _rows(kind: PlugIn, plan: Plan, time: float, files: Mapping[str, int]) -> np.ndarray:
+    """float32 (instances, columns, 4); `files` are the numbers of what file parameters name."""
     first, (places, length) = 4 * len(_motion_names(kind)), _places(kind)
     found = [entry for entry in motion.motions(plan.scene, kind.slot, plan.space_time, time) if entry[0].kind == kind.key]
-    layers = pictures.layers(plan.scene)
     rows = np.zeros((len(found), length), np.float32)
     for row, (instance, here) in zip(rows, found):
         row[:first] = (*here.centre, here.reach, *here.velocity, 0.0, *here.spin, 0.0, *here.attitude)[:first]
         for item, place in places:
-            row[place : place + _width(item)] = _numbers(item, instance.values[item.key], layers)
+            row[place : place + _width(item)] = _numbers(item, instance.values[item.key], files)
     return rows.reshape(len(found), -1, 4)
 
 
-def _numbers(item: Field, value: Value, layers: Mapping[str, int]) -> tuple[float, ...]:
+def _numbers(item: Field, value: Value, files: Mapping[str, int]) -> tuple[float, ...]:
     if isinstance(value, tuple):
         return tuple(map(number_of, value))
     if isinstance(value, str):
-        return (float(layers.get(value, -1) if item.kind == "file" else item.options.index(value)),)
+        return (float(files.get(value, -1) if item.kind == "file" else item.options.index(value)),)
     return (number_of(value),)

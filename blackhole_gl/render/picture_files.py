@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import io
-import os
-import stat
 import warnings
 from collections import OrderedDict
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +12,8 @@ from PIL import Image, ImageOps
 
 from ..scene import files
 from ..scene.schema import SceneError
+from . import stamps
+from .stamps import Stamp, Unusable
 
 MOST_BYTES = 64 << 20
 MOST_PIXELS = 1 << 26
@@ -23,15 +22,6 @@ ALLOWED = "a PNG, JPEG, WebP or BMP file of at most 64 MiB, 16384 pixels a side 
 
 _FORMATS = ("PNG", "JPEG", "WEBP", "BMP")
 _KEPT_BYTES = 256 << 20  # of decoded pictures
-
-
-@dataclass(frozen=True)
-class Stamp:
-    """A file as it stood when it was looked at: another time or size means that it has to be read anew."""
-
-    path: Path
-    modified_ns: int
-    size: int
 
 
 class PictureFiles:
@@ -53,7 +43,7 @@ class PictureFiles:
         if place not in self._kept:
             try:
                 self._kept[place] = _linear(_decoded(stamp.path, most_aside))
-            except _Unusable as error:
+            except Unusable as error:
                 self._kept[place] = str(error)
             while len(self._kept) > 1 and sum(len(kept) if isinstance(kept, str) else kept.nbytes for kept in self._kept.values()) > _KEPT_BYTES:
                 self._kept.popitem(last=False)
@@ -72,20 +62,9 @@ def stamp(key: str, value: str) -> Stamp:
     """
     path = files.located(key, value)
     try:
-        found = os.stat(path)
-    except (OSError, ValueError) as error:
-        raise _error(key, path, f"it cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    if not stat.S_ISREG(found.st_mode):  # a pipe would be waited for
-        raise _error(key, path, "it is no file")
-    if found.st_size == 0:
-        raise _error(key, path, "it is empty")
-    if found.st_size > MOST_BYTES:
-        raise _error(key, path, f"it has {found.st_size} bytes")
-    return Stamp(path, found.st_mtime_ns, found.st_size)
-
-
-class _Unusable(ValueError):
-    """What is wrong with a picture."""
+        return stamps.stamp(path, MOST_BYTES)
+    except Unusable as error:
+        raise _error(key, path, str(error)) from None
 
 
 def _error(key: str, path: Path, reason: str) -> SceneError:
@@ -94,29 +73,23 @@ def _error(key: str, path: Path, reason: str) -> SceneError:
 
 def _decoded(path: Path, most_aside: int) -> Image.Image:
     """The picture upright, RGBA with 8 bits, reduced where a side is longer than `most_aside`."""
-    try:
-        with open(path, "rb") as stream:
-            data = stream.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise _Unusable(f"it cannot be read: {error.strerror or error}") from None
-    if len(data) > MOST_BYTES:
-        raise _Unusable("it has grown too long")
+    data = stamps.content(path, MOST_BYTES)
     try:
         with warnings.catch_warnings(action="ignore"):  # of what it refuses itself, and of what it makes do with
             with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
                 width, height = image.size
                 if max(image.size) > MOST_ASIDE or width * height > MOST_PIXELS:
-                    raise _Unusable(f"it has {width}×{height} pixels")
+                    raise Unusable(f"it has {width}×{height} pixels")
                 image.draft("RGB", (most_aside, most_aside))  # of a JPEG no more is decoded than needed
                 upright = _rgba(ImageOps.exif_transpose(image))
                 upright.thumbnail((most_aside, most_aside), Image.Resampling.BOX)
                 return upright
-    except _Unusable:
+    except Unusable:
         raise
     except Image.UnidentifiedImageError:
-        raise _Unusable("it is none of these kinds, whatever its name says") from None
+        raise Unusable("it is none of these kinds, whatever its name says") from None
     except Exception as error:  # decoders raise whatever they stumble over in a damaged file
-        raise _Unusable(f"it is damaged: {error or type(error).__name__}") from None
+        raise Unusable(f"it is damaged: {error or type(error).__name__}") from None
 
 
 def _rgba(image: Image.Image) -> Image.Image:

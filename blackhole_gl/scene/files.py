@@ -14,6 +14,9 @@ ASSET = "asset:"
 PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 """What the names of pictures end in. A file parameter with no other endings is a picture, which shaders get as a texture."""
 
+MESHES = (".obj", ".gltf", ".glb", ".stl", ".ply")
+"""What the names of meshes end in."""
+
 
 def is_asset(value: str) -> bool:
     """Whether `value` names a file that comes with the program."""

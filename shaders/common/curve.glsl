@@ -80,3 +80,18 @@ bool path_leaves(Path a, Path b, float reach) {
     bool outwards = b.place.w <= 0.0 || to2 * a.place.w * a.place.w >= from2 * b.place.w * b.place.w;
     return outwards && from2 > reach * reach * a.place.w * a.place.w;
 }
+
+// A whole step of h, as a cubic for each half: near the hole a long one is none.
+struct Way {
+    Path a, middle, b;
+    float h;
+};
+
+// The way at t in 0…1; its rates are by t.
+Path way_path(Way way, float t) {
+    bool later = t > 0.5;
+    Curve half_way = Curve(way.a, way.middle, 0.5 * way.h);
+    if (later) half_way = Curve(way.middle, way.b, 0.5 * way.h);
+    Path found = curve_path(half_way, later ? 2.0 * t - 1.0 : 2.0 * t);
+    return Path(found.place, 2.0 * found.rate, vec2(found.twist.x, 2.0 * found.twist.y));
+}

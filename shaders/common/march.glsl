@@ -66,13 +66,23 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #endif
 
 #if MEETINGS
-// One meeting within the step from `a` along `curve`. As with crossings the place on the curve is stepped to again.
-void add_meeting_found(Orbit orbit, State a, Curve curve, Found found, inout Hits hits) {
-    State there = march_step(orbit, a, curve.h * meeting_root(curve, found));
-    Path path = ray_path(orbit, there);
-    vec3 velocity = path_velocity(path);
-    float speed = length(velocity);
-    float slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
+// The way from `a` to `b`, a step of h. A long one near the hole is a cubic in halves only.
+Way way_of(Orbit orbit, State a, State b, float h) {
+    return Way(ray_path(orbit, a), ray_path(orbit, march_step(orbit, a, 0.5 * h)), ray_path(orbit, b), h);
+}
+
+// One meeting within the step from `a` along `way`. As with crossings the place on the curve is stepped to again.
+void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hits) {
+    State there;
+    float t = meeting_root(way, found), slip = 0.0;
+    for (int i = 0; i < 2; ++i) {  // the first time from where the curve has it, which a long step leaves by more than the march
+        t = clamp(t + slip / way.h, 0.0, 1.0);
+        there = march_step(orbit, a, way.h * t);
+        Path path = ray_path(orbit, there);
+        vec3 velocity = path_velocity(path);
+        float speed = length(velocity);
+        slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
+    }
 #ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
 #else
@@ -83,7 +93,7 @@ void add_meeting_found(Orbit orbit, State a, Curve curve, Found found, inout Hit
 
 // All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
 bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crossed, Found found, inout Hits hits) {
-    Curve curve = Curve(ray_path(orbit, a), ray_path(orbit, b), h);
+    Way way = way_of(orbit, a, b, h);
     float crossing = 2.0;
 #if ORDERS > 0
     if (crossed) crossing = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
@@ -99,12 +109,12 @@ bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crosse
         }
 #endif
         if (none) return false;
-        add_meeting_found(orbit, a, curve, found, hits);
+        add_meeting_found(orbit, a, way, found, hits);
         if (is_opaque(found.kind)) return true;
 #if MEETINGS > 1
-        Path path = curve_path(curve, found.at);
+        Path path = way_path(way, found.at);
         float beyond = found.at + 2.0 * overstep(found.size, path_point(path)) / length(path_velocity(path));
-        found = next_meeting(curve, beyond, min(end, 1.0));
+        found = next_meeting(way, beyond, min(end, 1.0));
     }
 #endif
     return false;
@@ -226,7 +236,7 @@ Hits trace_ray(RayStart start) {
             march_on(orbit, ORDERS > 0, m);
             end = march_end(orbit, m);
             found = NOTHING_FOUND;
-            if (m.near) found = next_meeting(Curve(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h), 0.0, min(end, 1.0));
+            if (m.near) found = next_meeting(way_of(orbit, m.s, m.next, m.h), 0.0, min(end, 1.0));
             if (m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps) break;
         }
         if (!met) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, found, hits);

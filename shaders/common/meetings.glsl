@@ -136,13 +136,13 @@ bool may_meet(Path a, Path b, float h) {
     return near;
 }
 
-// The parameter between `from` and `to` at which the curve is beside x: false position on the way along `onward`.
-float parameter_beside(Curve curve, float from, float to, vec3 x, vec3 onward) {
+// The parameter between `from` and `to` at which the curve is beside x: false position along `onward`.
+float parameter_beside(Way way, float from, float to, vec3 x, vec3 onward) {
     float low = from, high = to, t = from;
-    float below = dot(path_point(curve_path(curve, from)) - x, onward), above = dot(path_point(curve_path(curve, to)) - x, onward);
-    for (int i = 0; i < 4; ++i) {
+    float below = dot(path_point(way_path(way, from)) - x, onward), above = dot(path_point(way_path(way, to)) - x, onward);
+    for (int i = 0; i < 8; ++i) {
         t = mix(low, high, clamp(below / min(below - above, -1e-20), 0.0, 1.0));
-        float here = dot(path_point(curve_path(curve, t)) - x, onward);
+        float here = dot(path_point(way_path(way, t)) - x, onward);
         if (here < 0.0) { low = t; below = here; above *= 0.7; } else { high = t; above = here; below *= 0.7; }
     }
     return t;
@@ -151,17 +151,17 @@ float parameter_beside(Curve curve, float from, float to, vec3 x, vec3 onward) {
 const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far away, left out there: a thousand times as far as its other end
 
 // The first meeting on the curve between its parameters `from` and `to`.
-Found next_meeting(Curve curve, float from, float to) {
-    float t = curve.a.place.w <= 0.0 ? max(from, FAR_END) : from;
-    float last = curve.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
-    Path here = curve_path(curve, t);
+Found next_meeting(Way way, float from, float to) {
+    float t = way.a.place.w <= 0.0 ? max(from, FAR_END) : from;
+    float last = way.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
+    Path here = way_path(way, t);
     vec3 x = path_point(here);
     float part = last - t;
     Found found = NOTHING_FOUND;
     for (int i = 0; i < MOST_PIECES; ++i) {
         if (t >= last) break;
-        float next = min(t + part, last), allowed;
-        Path there = curve_path(curve, next);
+        float next = min(t + part, t < 0.5 ? min(last, 0.5) : last), allowed;
+        Path there = way_path(way, next);
         vec3 y = path_point(there);
         float stray = path_stray(here, there, next - t);
         found = first_on_piece(x, y, stray, allowed);
@@ -170,39 +170,51 @@ Found next_meeting(Curve curve, float from, float to) {
             part = (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
             continue;
         }
-        if (found.kind != MEETING_NONE) {
-            found.at = parameter_beside(curve, t, next, mix(x, y, found.at), normalize(y - x));
-            break;
-        }
+        to = next;
+        if (found.kind != MEETING_NONE) break;
         if (path_leaves(here, there, meeting_reach)) break;
         t = next;
         here = there;
         x = y;
         part *= 2.0;
     }
+    if (found.kind != MEETING_NONE) {
+        vec3 piece = path_point(way_path(way, to)) - x;
+        found.at = parameter_beside(way, t, to, x + found.at * piece, piece);
+    }
     return found;
 }
 
-// How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s.
+// How far on along the unit vector `onward` from x what tells no distance is met: looked for as far as `most` before x and behind it; 1e30: it is not.
+float crossing_beyond(Found found, vec3 x, vec3 onward, float most) {
+    bool ignored;
+    float part = 2.0;
+#each thing_by_crossing : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
+    return part <= 1.0 ? (2.0 * part - 1.0) * most : 1e30;
+}
+
+// How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s; no farther than a part of its size.
 float beyond_surface(Found found, vec3 x, vec3 onward) {
-    float most = 4.0 * stray_allowed(found.size) + 1e-5 * length(x), part = 2.0;
+    float most = 0.3 * found.size, beyond = 1e30;
 #if MEETINGS_BY_DISTANCE
     if (tells_distance(found.kind)) {
         float off = distance_to(found.kind, found.index, x), probe = 1e-3 * min(found.size, 1.0) + 1e-5 * length(x);
         float slope = (distance_to(found.kind, found.index, x + probe * onward) - off) / probe;
-        part = 0.5 + 0.5 * clamp(-off / (abs(slope) < 1e-6 ? 1e30 : slope), -most, most) / most;
+        beyond = -off / (abs(slope) < 1e-6 ? 1e30 : slope);
     }
 #endif
-    bool ignored;
-#each thing_by_crossing : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
-    return part <= 1.0 ? (2.0 * part - 1.0) * most : 0.0;
+    if (!tells_distance(found.kind)) {
+        beyond = crossing_beyond(found, x, onward, 4.0 * stray_allowed(found.size) + 1e-5 * length(x));
+        if (beyond > most) beyond = crossing_beyond(found, x, onward, most);
+    }
+    return beyond > 1e29 ? 0.0 : clamp(beyond, -most, most);
 }
 
 // The parameter of the curve at which it meets the surface of what was found, from one close to it: Newton's method.
-float meeting_root(Curve curve, Found found) {
+float meeting_root(Way way, Found found) {
     float t = found.at;
     for (int i = 0; i < 3; ++i) {
-        Path here = curve_path(curve, t);
+        Path here = way_path(way, t);
         vec3 velocity = path_velocity(here);
         float speed = length(velocity);
         t += beyond_surface(found, path_point(here), velocity / speed) / speed;

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "presets", "shaders", "studies", "tests", "tools")
-BINARY = {".png", ".npy", ".npz", ".exr", ".jpg", ".pyc", ".mp4"}
+BINARY = {".png", ".npy", ".npz", ".exr", ".jpg", ".pyc", ".mp4", ".ply"}
 
 # Each is written in two pieces, so that this file does not find itself.
 MACHINE_PATH = re.compile("|".join(["/" + r"(?:work|home|root|Users|opt)/[A-Za-z.]", r"[A-Z]:\\" + r"Users\\"]))

@@ -74,7 +74,7 @@ def _compare(renderer: Renderer, model: str, count: int) -> None:
 
 @pytest.mark.parametrize("model", MODELS)
 def test_the_first_sphere_on_a_ray_is_the_twins(renderer: Renderer, model: str) -> None:
-    _compare(renderer, model, 100)
+    _compare(renderer, model, 60)
 
 
 @pytest.mark.slow

@@ -1,0 +1,92 @@
+"""Meshes in pictures: met like the shapes that they are, closed where they are closed, with the colours and normals of their files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from blackhole_gl.glsl.declared import Fate
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import Scene, SceneError, presets
+
+SIZE = (160, 90)
+PLACE = {"x": 7.0, "y": 5.0, "z": 3.0}
+
+
+def globe(path: Path, around: int, along: int) -> Path:
+    """A sphere of triangles, its corners on the unit sphere: an OBJ file."""
+    phi = 2.0 * np.pi * np.arange(around) / around
+    theta = np.pi * np.arange(1, along) / along
+    rings = np.stack([np.outer(np.sin(theta), np.cos(phi)), np.outer(np.sin(theta), np.sin(phi)), np.outer(np.cos(theta), np.ones(around))], axis=-1)
+    corners = np.concatenate([[[0.0, 0.0, 1.0]], rings.reshape(-1, 3), [[0.0, 0.0, -1.0]]])
+    faces = []
+    for k in range(around):
+        after, last = (k + 1) % around, 1 + (along - 2) * around
+        faces += [(0, 1 + k, 1 + after), (last + around, last + after, last + k)]
+        for ring in range(along - 2):
+            here, below = 1 + ring * around, 1 + (ring + 1) * around
+            faces += [(here + k, below + k, below + after), (here + k, below + after, here + after)]
+    path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+    return path
+
+
+def _scene(model: str, **thing: object) -> Scene:
+    given = {f"things.moon.{name}": value for name, value in {**PLACE, **thing}.items()}
+    view = {"camera.distance": 20.0, "camera.azimuth_deg": 20.0, "camera.inclination_deg": 70.0, "disk.enabled": False, "rays.edges": 1}
+    return presets.load(["kerr"], {**view, "rays.model": model, "hole.spin": 0.9 if model == "kerr" else 0.0, "things.moon.kind": "sphere", **given})
+
+
+@pytest.mark.parametrize("model", ["flat", "kerr"])
+def test_a_globe_of_triangles_is_met_where_the_sphere_is(renderer: Renderer, tmp_path: Path, model: str) -> None:
+    """Its faces lie up to 1 − cos(π/60) = 1.4e-3 of its radius within; every ray that meets a sphere that small meets it, so there are no gaps."""
+    fine = globe(tmp_path / "globe.obj", 60, 30)
+    moon = {"kind": "mesh", "file": str(fine), "size": 2.0, "up": "z", "axis_tilt_deg": 40.0, "turn_deg": 20.0}
+    found = []
+    for thing in (moon, {"radius": 2.0}, {"radius": 2.0 * 0.994}):
+        renderer.render(_scene(model, **thing), 0.0, SIZE)
+        found.append(renderer.hits())
+    mesh, sphere, smaller = found
+    assert np.all(mesh.fate[smaller.fate == Fate.MET] == Fate.MET) and (smaller.fate == Fate.MET).sum() > 150
+    assert np.all(sphere.fate[mesh.fate == Fate.MET] == Fate.MET)
+    off = np.linalg.norm(mesh.met_place[mesh.fate == Fate.MET, 0] - np.array(list(PLACE.values())), axis=-1)
+    assert np.all((off < 2.0 + 2e-5) & (off > 2.0 * 0.997)), "between a face's middle and its corners"
+
+
+def test_a_smooth_globe_shines_like_the_sphere(renderer: Renderer, tmp_path: Path) -> None:
+    """The normals of 1,800 corners, between them interpolated; what differs is the outline."""
+    look = {"ambient": 0.2, "specular": 0.0}
+    lamp = {"things.lamp.kind": "lamp", "things.lamp.x": 20.0, "things.lamp.y": -5.0, "things.lamp.z": 12.0, "things.lamp.radius": 0.0, "sky.enabled": False}
+    light = []
+    for thing in ({"kind": "mesh", "file": str(globe(tmp_path / "globe.obj", 60, 30)), "size": 2.0}, {"radius": 2.0}):
+        renderer.render(_scene("kerr", **thing, **look).with_values(lamp), 0.0, SIZE)
+        light.append(renderer.radiance())
+    lit = light[1].max(axis=-1) > 0.0
+    assert lit.sum() > 150 and light[1].max() > 0.2
+    assert np.quantile(np.abs(light[0] - light[1])[lit], 0.9) < 0.02 * light[1].max()
+
+
+def test_a_mesh_shows_its_own_colours_or_ours(renderer: Renderer) -> None:
+    pictures = []
+    for own in (True, False):
+        renderer.render(_scene("flat", kind="mesh", size=3.0, own_colours=own, lighting="glowing", colour=(0.5, 0.5, 0.5)), 0.0, SIZE)
+        met = renderer.hits().fate[::-1] == Fate.MET
+        pictures.append(renderer.radiance()[met])
+    spread = [np.ptp(picture / picture.sum(axis=-1, keepdims=True), axis=0).max() for picture in pictures]
+    assert spread[0] > 0.3 and spread[1] < 0.01, "the shipped knot's colours run along it"
+
+
+def test_a_slider_of_a_mesh_compiles_nothing_and_a_bad_file_leaves_the_picture_standing(renderer: Renderer, tmp_path: Path) -> None:
+    scene = _scene("kerr", kind="mesh")
+    renderer.render(scene, 0.0, (32, 18))
+    compiled, picture = renderer.programs.compiled, renderer.read_rgb8()
+    other = globe(tmp_path / "a.obj", 8, 4)
+    for values in ({"things.moon.size": 3.0}, {"things.moon.file": str(other)}, {"things.second.kind": "mesh", "things.second.file": str(other)}):
+        assert renderer.render(scene.with_values(values), 0.0, (32, 18)).traced
+    assert renderer.programs.compiled == compiled
+    renderer.render(scene, 0.0, (32, 18))
+    other.write_text("not a mesh")
+    with pytest.raises(SceneError, match="things.moon.file: the mesh .* cannot be used: .*; allowed is an OBJ"):
+        renderer.render(scene.with_values({"things.moon.file": str(other)}), 0.0, (32, 18))
+    np.testing.assert_array_equal(renderer.read_rgb8(), picture)
