@@ -28,7 +28,7 @@ def _angle(radius: float, short: np.ndarray) -> np.ndarray:
     ψ = ∫ du/√(1/b² − u² + u³) from 0 to u₀ = 1/R, with u = u₀(1 − s²), which takes the root at grazing angles away.
     """
     u0 = 1.0 / radius
-    nodes, weights = np.polynomial.legendre.leggauss(2000)
+    nodes, weights = np.polynomial.legendre.leggauss(300)
     s = 0.5 * (nodes + 1.0)
     # 1/b² − u² + u³ less its value at grazing angles, which is u₀² s² (2 − s² − u₀ (3 − 3s² + s⁴)).
     more = (1.0 / (1.0 - short) ** 2 - 1.0) / _grazing_impact(radius) ** 2
