@@ -791,10 +791,24 @@ def instances_are_made_edited_and_removed(hands: Hands) -> None:
     hands.click("Remove##things.luna")
     assert list(hands.scene.things) == ["globe"]
     hands.click("Paste TOML")
-    assert hands.scene == saved
+    assert hands.scene.get("things.moon.image") == "" and "left out: the file moon.png" in hands.state.notice.text
+    hands.click("Paste TOML")
+    assert hands.scene == saved, "pasted again, it may name files anywhere"
     hands.choose("##kind of new media", "Cloud##cloud", table="")
     hands.click("Add##media")
     assert hands.scene.media["cloud"].kind == "cloud"
+
+
+def a_colour_is_edited_in_one_row(hands: Hands) -> None:
+    """Three shares of light as numbers, without buttons that would make the list longer or shorter."""
+    hands.choose("##kind of new things", "Sphere##sphere", table="")
+    hands.fill("##name of new things", "ball")
+    hands.click("Add##things")
+    hands.fill("##things.ball.colour/##X", 0.25)
+    assert hands.scene.get("things.ball.colour") == (0.25, 0.8, 0.7)
+    hands.fill("##things.ball.colour/##Z", 3.0)
+    assert hands.scene.get("things.ball.colour") == (0.25, 0.8, 1.0), "kept within its range"
+    hands.click("Remove##things.ball")
 
 
 def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
@@ -804,7 +818,7 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
     assert hands.state.shader_error and hands.state.render_error is None
 
 
-WITH_KINDS = (instances_are_made_edited_and_removed, a_mistake_in_a_users_header_is_shown)
+WITH_KINDS = (instances_are_made_edited_and_removed, a_colour_is_edited_in_one_row, a_mistake_in_a_users_header_is_shown)
 WITH_THE_REAL_RENDERER = (
     real_picture, way_out_of_a_black_picture, shader_edited, live_chart, path_view, side_by_side, sides_hide_nothing, preset_switches_never_freeze,
 )  # fmt: skip
