@@ -61,6 +61,9 @@ class Recorder:
     def vertex_array(self, program: NoGL, content: list) -> NoGL:
         return NoGL()
 
+    def buffer(self, *, reserve: int, dynamic: bool) -> NoGL:
+        return NoGL()
+
 
 def collect() -> Mapping[tuple[str, str], str]:
     """(vertex text, fragment text) → path and scene of every program."""
