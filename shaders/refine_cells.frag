@@ -52,10 +52,13 @@ void main() {
     vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
 #if MEETINGS
-    trusted = trusted && texelFetch(reached, ivec2(gl_FragCoord.xy) * REFINE_STEP / REACH_STEP, 0).r == 0.0;
+    bool things = texelFetch(reached, ivec2(gl_FragCoord.xy) * REFINE_STEP / REACH_STEP, 0).r > 0.0;
+#else
+    const bool things = false;
 #endif
-    cell_out = trusted ? cell | (disk ? 256u : 0u) : 0u;
+    trusted = trusted && !things;
+    cell_out = trusted ? cell | (disk ? 256u : 0u) : things ? 0u : CELL_WITHOUT_THINGS;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
     int shared_class = disk ? PIXEL_MATTER : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
-    class_out = class_depth(trusted ? shared_class : MEETINGS > 0 ? PIXEL_THING : PIXEL_OWN_RAY);
+    class_out = class_depth(trusted ? shared_class : things ? PIXEL_THING : PIXEL_OWN_RAY);
 }

@@ -1,6 +1,6 @@
 #version 330 core
 // Classes of the cells → depth: what a pixel of a refined map will need. A cell's pixels share one class, which may be wider than a pixel needs.
-// PIXEL_OWN_RAY, or PIXEL_THING in a scene with things: trace.frag is still to draw it, and the depth test keeps it from all others. PIXEL_FLAT_SKY: read with HIT_MAP_REFINED = 2.
+// PIXEL_OWN_RAY and PIXEL_THING: trace.frag is still to draw it, and the depth test keeps it from all others. PIXEL_FLAT_SKY: read with HIT_MAP_REFINED = 2.
 #defines
 #blocks
 #include "common/constants.glsl"

@@ -28,8 +28,7 @@ class PixelClass(IntEnum):
     FLAT_SKY = 7
     """As SKY, and directions may be interpolated linearly: nothing else is read. With `SKY` it adds up to 9, so that one minus its depth is that of SKY."""
     THING = 8
-    """May show a thing or a medium, and may need anything. Where a scene has any, pixels with a ray of their own that the trace pass is still to draw are of
-    this class instead of `OWN_RAY`."""
+    """May show a thing or a medium, and may need anything; with a ray of its own, as `OWN_RAY`, which shows none."""
 
     @property
     def depth(self) -> float:

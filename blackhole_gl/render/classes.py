@@ -27,12 +27,12 @@ FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1)
 """Those of things too: what is drawn for them has to come later."""
 THINGS = Where("<", PixelClass.FLAT_SKY.depth_beyond)
 EVERYWHERE = Where("1", 0.5)
-_OWN_RAYS = Where(">", PixelClass.OWN_RAY.depth_beyond)
+OWN_RAYS = Where(">", PixelClass.OWN_RAY.depth_beyond)
 
 
-def own_rays(plan: Plan) -> Where:
+def own_rays(plan: Plan) -> tuple[Where, ...]:
     """The pixels of a refined map that are traced themselves."""
-    return THINGS if plan.meetings else _OWN_RAYS
+    return (OWN_RAYS, THINGS) if plan.meetings else (OWN_RAYS,)
 
 
 @contextmanager

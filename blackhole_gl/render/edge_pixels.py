@@ -53,8 +53,9 @@ class EdgePixels:
         frame.use()
         frame.depth_mask = False
         frame.clear(1.0, 1.0)  # no ray
-        with drawn(self._ctx, marks, own_rays(inputs.plan)):
-            marks.draw()
+        for where in own_rays(inputs.plan):
+            with drawn(self._ctx, marks, where):
+                marks.draw()
         return self._own.texture
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from ..physics.observer import cos_sin_deg
 from ..plan import REACH_STEP, REFINE_STEP, Plan
 from . import hit_texels, instances, reach, refinement
+from .classes import OWN_RAYS, THINGS
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instances import InstanceTables
@@ -248,10 +249,13 @@ class HitMap:
             coarse = self._programs.get("trace.frag", inputs, _ON_NOTHING)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached)
+            self._bind_tables(coarse)
+            self._grid.trace_own_rays(coarse, self.textures[: hit_texels.textures(inputs.plan.orders)], OWN_RAYS)
             self._bind_tables(rays)
+            self._grid.trace_own_rays(rays, self.textures, THINGS)
         else:
             self._grid.trace(rays, None)
-        self._grid.trace_own_rays(rays, self.textures)
+            self._grid.trace_own_rays(rays, self.textures, OWN_RAYS)
         self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
 
     def _sharpen(self, rays: Draw, target: moderngl.Framebuffer) -> None:

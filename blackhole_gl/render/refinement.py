@@ -11,7 +11,7 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..plan import GRID_MARGIN, REFINE_STEP
-from .classes import drawn, own_rays
+from .classes import Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
@@ -59,7 +59,7 @@ class CoarseGrid:
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._kept: _Made | None = None
-        self._own: moderngl.Framebuffer | None = None
+        self._own: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
 
     @property
     def _made(self) -> _Made:
@@ -89,16 +89,17 @@ class CoarseGrid:
         self._judge_cells(inputs, made, reached)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
-    def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
-        """Traces the pixels that cannot be interpolated into `textures`, of the picture's size."""
-        if self._own is None or self._own.color_attachments != tuple(textures):
-            if self._own is not None:
-                self._own.release()
-            self._own = self._ctx.framebuffer(textures, self.classes)
-        self._own.use()
-        self._own.depth_mask = False
+    def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
+        """Traces those of the pixels that cannot be interpolated into `textures`, of the picture's size."""
+        own = self._own.get(len(textures))
+        if own is None or own.color_attachments != tuple(textures):
+            if own is not None:
+                own.release()
+            own = self._own[len(textures)] = self._ctx.framebuffer(textures, self.classes)
+        own.use()
+        own.depth_mask = False
         rays.set(ray_grid=(1.0, 0.0, 0.0))
-        with drawn(self._ctx, rays, own_rays(rays.inputs.plan)):
+        with drawn(self._ctx, rays, where):
             rays.draw()
 
     def samplers(self) -> dict[str, moderngl.Texture]:
@@ -134,10 +135,11 @@ class CoarseGrid:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for item in (self._own, self._kept):
-            if item is not None:
-                item.release()
-        self._own, self._kept = None, None
+        for own in self._own.values():
+            own.release()
+        if self._kept is not None:
+            self._kept.release()
+        self._own, self._kept = {}, None
 
     def _make_nodes(self, inputs: FrameInputs, made: _Made) -> None:
         nodes = self._programs.get("refine_nodes.frag", inputs)

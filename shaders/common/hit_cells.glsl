@@ -10,6 +10,7 @@
 //   bits 0–1            fate of all its pixels; UNRESOLVED: nothing can be interpolated here, every pixel has a ray of its own
 //   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2 (which is never interpolated: it is seen in the thinnest of rings)
 //   bit 8               some crossing may lie on the disk
+//   bit 9               of cells whose pixels have rays of their own: they show no thing or medium, and none was written
 //
 // The grid begins GRID_MARGIN nodes outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − GRID_MARGIN, j − GRID_MARGIN), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
@@ -17,6 +18,8 @@
 const uint CROSSING_NONE = 0u;
 const uint CROSSING_SEEN = 1u; // to be interpolated
 const uint CROSSING_UNSEEN = 2u;  // further out than matters, or none
+
+const uint CELL_WITHOUT_THINGS = 512u;
 
 uint cell_crossing(uint cell, int n) {
     return (cell >> (2 + 2 * n)) & 3u;

@@ -119,6 +119,9 @@ Hits stored_hits(ivec2 pixel) {
     t2 = texel_of(hits2, pixel);
 #endif
     Hits hits = unpacked_hits(texel_of(hits0, pixel), t1, t2);
+#if MEETINGS && HIT_MAP_REFINED
+    if ((cell & CELL_WITHOUT_THINGS) != 0u) return hits;
+#endif
 #if MEETINGS
     hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel));
 #endif
