@@ -14,7 +14,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow test-pythons gallery thumbnails chart stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery thumbnails chart fields stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -43,6 +43,10 @@ thumbnails: ## the small pictures of the panel's pickers anew, into assets/thumb
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart
 	$(BIN)/python -m studies.chart --out docs --plan-table assets/measurements.csv $(CHART_ARGS)
+
+fields: ## measure every method in every field: docs/fields.md and the table the plan chooses by
+	@$(SETUP) run
+	$(BIN)/python -m studies.fields --out docs --plan-table assets/measurements_fields.csv
 
 test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight, other drivers
 	@$(SETUP) test

@@ -25,6 +25,7 @@ app = typer.Typer(
 )
 
 _COMMANDS = ("view", "render", "trace", "plan", "bench", "check", "presets")
+_SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
 
 Named = Annotated[
@@ -222,8 +223,9 @@ def bench(
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160")] = None,
+    size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160; 800x600")] = None,
     rounds: Annotated[int, typer.Option(min=1, max=100, help="Frames of each kind; medians are taken.")] = 5,
+    suite: Annotated[str, typer.Option(help="frames, or weiskopf: spheres in four ray models with each acceleration, as measured in 2004.")] = "frames",
     json: Annotated[Path | None, typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
     euler: Annotated[bool, typer.Option(help="Also time 300 Euler steps, the yardstick E.")] = True,
     backend: Backend = "auto",
@@ -232,15 +234,24 @@ def bench(
     from json import dumps
 
     from .measure import bench as benching
+    from .measure import weiskopf
+    if suite not in _SUITES:
+        raise SceneError("--suite", f"got {suite!r}; allowed is one of {', '.join(_SUITES)}")
     preset = [*(names or ()), *(preset or ())]
+    if suite == "weiskopf" and (preset or set_ or len(size or ()) > 1):
+        raise SceneError("--suite", "weiskopf has scenes of its own and one size; allowed beside it are --size once, --rounds, --json and --backend")
     scene = _scene(preset, set_, any_file)
     if json is not None:
         refuse_unwritable(json, (".json",), "JSON")
     sizes = [_size(text) for text in size] if size else benching.SIZES
     renderer = _renderer(backend)
+    found: benching.Bench | weiskopf.Suite
     with Progress("timing") as progress:
-        found = benching.measure(renderer, scene, sizes, rounds, euler, progress)
-    print(benching.text(found), end="")
+        if suite == "weiskopf":
+            found = weiskopf.measure(renderer, sizes[0] if size else weiskopf.SIZE, rounds, progress)
+        else:
+            found = benching.measure(renderer, scene, sizes, rounds, euler, progress)
+    print(weiskopf.text(found) if isinstance(found, weiskopf.Suite) else benching.text(found), end="")
     if json is not None:
         write_whole(json, (dumps(found.as_dict(), indent=1, ensure_ascii=False) + "\n").encode())
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..physics.space_time import is_field
 from ..plan.choice import REFINED_TOLERANCE
 from ..scene import Scene, catalogue
 from ..scene.catalogue import PlugIn
@@ -100,8 +101,10 @@ def sensible(scene: Scene, whole: bool = True) -> list[Combination]:
 
     A model that is exact for the scene's hole is tried with every integrator (and its own step control) and every step control (and
     the best integrator that fits), or, unless `whole`, with the best of both; any other model has a floor that no integrator lowers,
-    and is tried once. Models that are fields are not about a hole.
+    and is tried once. A field is its own truth, and the only model of its scene.
     """
+    if is_field(scene):
+        return _methods_of_field(scene.rays.model, whole)
     found: dict[Combination, None] = {}
     for model in catalogue.plug_ins("ray_model").values():
         if not model.traits.field:
@@ -145,6 +148,12 @@ def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Combinatio
         yield from _fitting(model.key, ["rk4"], [key for key in catalogue.keys("step_control") if key not in own])
         yield from _fitting(model.key, catalogue.keys("integrator"), _pair_controls())
         yield from _fitting(model.key, ["euler", "verlet"], ["fixed"])
+
+
+def _methods_of_field(model: str, whole: bool) -> list[Combination]:
+    found = list(_fitting(model, catalogue.keys("integrator") if whole else _BEST, ["fixed"]))
+    found += _fitting(model, catalogue.keys("integrator") if whole else _BEST, _pair_controls())
+    return found + list(_fitting(model, ["rk4"], ["doubling"]))
 
 
 def _own_control(model: PlugIn[RayModelTraits]) -> list[str]:

@@ -11,8 +11,9 @@ import numpy as np
 from .. import listed_rays
 from ..listed_rays import TracedRays
 from ..physics import observer, relativity
+from ..physics.space_time import is_field
 from ..plan.choice import REFINED_SIZE
-from ..scene import Scene, catalogue, met, presets
+from ..scene import Scene, met, presets
 
 ASPECT = REFINED_SIZE[0] / REFINED_SIZE[1]
 FULL_HD = 1080
@@ -70,6 +71,8 @@ class ChartScene:
         at_infinity = math.isinf(self.scene.camera.distance)
         half = 0.5 * self.scene.camera.field_m if at_infinity else math.tan(math.radians(0.5 * self.scene.camera.fov_deg))
         radius, chi = self._from_the_hole(half * np.hypot(ASPECT * right, up), np.arctan2(up, ASPECT * right))
+        if is_field(self.scene):  # no shadow, and no edge of one
+            return np.stack([radius * np.cos(chi), radius * np.sin(chi)] if at_infinity else [radius, chi], axis=-1)
         chi_near = rng.uniform(-np.pi, np.pi, self.count // 10)
         epsilon = 10.0 ** rng.uniform(-6.0, math.log10(NEAR_CRITICAL), len(chi_near)) * rng.choice([-1.0, 1.0], len(chi_near))
         near = critical_radius(self.scene, chi_near) * (1.0 + epsilon)
@@ -88,7 +91,9 @@ class ChartScene:
 
     @cached_property
     def epsilon(self) -> np.ndarray:
-        """(N,) relative distance |ε| of each ray from the critical curve."""
+        """(N,) relative distance |ε| of each ray from the critical curve; infinite in a field, which has none."""
+        if is_field(self.scene):
+            return np.full(len(self.rays), np.inf)
         if math.isinf(self.scene.camera.distance):
             radius, chi = np.hypot(*self.rays.T), np.arctan2(self.rays[:, 1], self.rays[:, 0])
         else:
@@ -106,7 +111,9 @@ def _pixels(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def true_scene(scene: Scene) -> Scene:
-    """`scene` traced by the model that is exact for its hole."""
+    """`scene` traced by the model that is exact for its hole; a field is exact itself."""
+    if is_field(scene):
+        return scene.with_values({"rays.lensing": True, "rays.orders": 3})
     return scene.with_values({"rays.model": "schwarzschild" if scene.hole.spin == 0.0 else "kerr", "rays.lensing": True, "rays.orders": 3})
 
 
@@ -120,8 +127,8 @@ def critical_radius(scene: Scene, chi: np.ndarray) -> np.ndarray:
 
 
 def is_physical(scene: Scene) -> bool:
-    """Whether `scene` shows a hole as it is: only then is there a truth to compare with."""
-    return scene.hole.gravity_strength == 1.0 and scene.hole.horizon_size == 1.0
+    """Whether `scene` shows a hole as it is, or a field: only then is there a truth to compare with."""
+    return is_field(scene) or scene.hole.gravity_strength == 1.0 and scene.hole.horizon_size == 1.0
 
 
 def chart_scenes(quick: bool = False) -> list[ChartScene]:
@@ -139,5 +146,4 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
 
 def is_charted(scene: Scene) -> bool:
     """Whether the chart measures `scene`: a hole as it is, and nothing to meet but the disk, as the float64 reference knows no more."""
-    model = catalogue.plug_ins("ray_model").get(scene.rays.model)  # None where the plan chooses
-    return is_physical(scene) and met.is_empty(scene) and scene.rays.lensing and (model is None or not model.traits.field)
+    return is_physical(scene) and met.is_empty(scene) and scene.rays.lensing and not is_field(scene)

@@ -128,7 +128,11 @@ def is_open(scene: Scene) -> bool:
 
 def predictions(scene: Scene) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states."""
+    # A stronger field asks for shorter steps; a control that judges its steps finds them.
+    any_control = not is_field(scene) or _is_as_measured(scene)
     for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
+        if not any_control and not method.step_tolerance:
+            continue
         yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
 
 
@@ -223,11 +227,9 @@ def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, directio
 
 @lru_cache(maxsize=1)
 def measurements() -> tuple[Measured, ...]:
-    """The chart's table; empty where there is none."""
-    path = assets_dir() / "measurements.csv"
-    if not path.is_file():
-        return ()
-    return tuple(row for row in read(path) if row.model in catalogue.keys("ray_model"))
+    """The chart's tables, of holes and of fields; empty where there are none."""
+    paths = (assets_dir() / name for name in ("measurements.csv", "measurements_fields.csv"))
+    return tuple(row for path in paths if path.is_file() for row in read(path) if row.model in catalogue.keys("ray_model"))
 
 
 def forget_choices() -> None:
@@ -253,7 +255,7 @@ def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
 def _not_measured(scene: Scene) -> str:
     """Why the chart says nothing of `scene`; empty when it does."""
     if is_field(scene):
-        return "a field, of which nothing was measured: plain steps"
+        return "" if _nearest_scenes(scene) else "a field of which nothing was measured: plain steps"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
     if not measurements():
@@ -306,10 +308,23 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
 @lru_cache(maxsize=64)
 def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
     """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _by_scene().items())
+    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _by_scene().items() if _is_alike(scene, rows[0]))
     if not apart:
         return ()
     return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])
+
+
+def _is_alike(scene: Scene, row: Measured) -> bool:
+    """Whether the measured scene of `row` is of the same field as `scene`, or both are of holes."""
+    if is_field(scene):
+        return row.model == scene.rays.model
+    return not catalogue.plug_ins("ray_model")[row.model].traits.field
+
+
+def _is_as_measured(scene: Scene) -> bool:
+    """Whether the field of `scene` is the one that was measured: with the parameters that it comes with."""
+    known = {**ray_model(scene).parameters, **{key: scene.field(key) for key in ("rays.field_radius", "rays.field_way")}}
+    return all(scene.get(key) == item.default for key, item in known.items())
 
 
 def _distance(scene: Scene, row: Measured) -> float:

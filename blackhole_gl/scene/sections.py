@@ -104,6 +104,14 @@ class Rays:
     field_way: float = number(
         400.0, 1.0, 1e5, "r_s", "Way within a field after which a ray is held there for good: it is black. Rays that a field lets out end in the sky.",
     )
+    early_end: bool = switch(
+        True, "End a ray's march where it has met something opaque, escapes or is captured. Off, for measurements: it is marched on as far as all steps lead.",
+    )
+    bounds: bool = switch(
+        True,
+        "Look for things and media only on steps that come near any, and there at none but those whose boxes are met. Off, for measurements: on every "
+        "step, at all of them.",
+    )
     orders: int = number(3, 1, 3, "", "How many crossings of the disk's plane are kept: 1 direct picture, 2 with the first ring, 3 with the second.")
     at_rest: int = number(
         17, 1, 17, "", "Rays a pixel that a picture takes where nothing moves, one more a frame; an even number shows as the odd one below it.",

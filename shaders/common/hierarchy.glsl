@@ -27,9 +27,13 @@ Node fetch_node(sampler2D nodes, int node) {
 
 // Whether the piece meets the node's box before its part `most`.
 bool meets_box(Piece piece, Node node, float most) {
+#if RAYS_BOUNDS
     vec3 a = (node.low.xyz - piece.pad - piece.x) * piece.inverse, b = (node.high.xyz + piece.pad - piece.x) * piece.inverse;
     vec3 into = min(a, b), out_of = max(a, b);
     return max(max(into.x, into.y), max(into.z, 0.0)) <= min(min(out_of.x, out_of.y), min(out_of.z, most));
+#else
+    return true;
+#endif
 }
 
 bool is_leaf(Node node) {

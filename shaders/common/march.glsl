@@ -137,6 +137,9 @@ struct March {
 #if MEETINGS
     bool near;      // something may have been met in it
 #endif
+#if !RAYS_EARLY_END
+    float gone, whole;  // how far it has gone, in the parameter of the march, and would go by all steps
+#endif
 };
 
 // A loop with one exit goes on for finished rays (docs/llvmpipe.md) and hands on what later rounds computed. Where the body is a function of
@@ -170,6 +173,10 @@ March march_start(Orbit orbit, State first) {
 #if MEETINGS
     m.near = false;
 #endif
+#if !RAYS_EARLY_END
+    m.gone = 0.0;
+    m.whole = float(plan_max_steps) * ray_plain_step(orbit, first);
+#endif
     return m;
 }
 
@@ -185,6 +192,9 @@ void march_once(Orbit orbit, inout March m) {
 #else
     m.h = step_size(orbit, m.s);
     m.next = march_step(orbit, m.s, m.h);
+#endif
+#if !RAYS_EARLY_END
+    m.gone += m.h;
 #endif
     ++m.steps;
     m.fate = ray_fate(orbit, m.next);
@@ -203,7 +213,11 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
         m.crossed = seeks && is_below(m.next) != is_below(m.s);
 #endif
 #if MEETINGS
+#if RAYS_BOUNDS
         m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
+#else
+        m.near = true;
+#endif
 #endif
 #if MARCH_REPEATS
     } while (!march_pauses(m) && m.fate == UNRESOLVED && m.steps < plan_max_steps);
@@ -212,6 +226,25 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
     }
 #endif
 }
+
+#if !RAYS_EARLY_END
+// The steps of a ray that is marched on for as long a way as all steps would be at first, whatever has become of it; nobody sees what it meets there. What it
+// finds is part of a comparison that is never true, or else the compiler would leave the march out.
+int steps_gone_on(Orbit orbit, March m) {
+    float found = 0.0;
+    while (m.gone < m.whole && m.steps < plan_max_steps) {
+        march_once(orbit, m);
+#if MEETINGS
+        bool near = true;
+#if RAYS_BOUNDS
+        near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
+#endif
+        if (near) found += next_meeting(Curve(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h), 0.0, 1.0).at;
+#endif
+    }
+    return m.steps + (abs(ray_height(m.next)) + found < -plan_step_length ? 1 : 0);
+}
+#endif
 
 // Where in the last step the ray escapes: beyond it unless it does, as the very end of a step may be a crossing.
 float march_end(Orbit orbit, March m) {
@@ -265,6 +298,9 @@ Hits trace_ray(RayStart start) {
 #endif
     hits.steps = m.steps;
     hits.fate = m.fate;
+#if !RAYS_EARLY_END
+    hits.steps = steps_gone_on(orbit, m);
+#endif
     if (m.fate == ESCAPED) ray_finish(orbit, march_step(orbit, m.s, m.h * end), hits);
     return hits;
 }

@@ -1,0 +1,60 @@
+"""Fields in what is measured, planned and shown: each is its own truth, has no hole, and asks for steps by what was measured of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl import plan
+from blackhole_gl.app.panel import Panel
+from blackhole_gl.measure.methods import sensible
+from blackhole_gl.measure.scenes import ChartScene, is_physical, true_scene
+from blackhole_gl.plan import choice
+from blackhole_gl.scene import Scene, catalogue, presets
+
+FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
+
+
+def field(model: str, **values) -> Scene:
+    return presets.load(["kerr"], {"rays.model": model, "camera.distance": 25.0, **{key.replace("__", "."): value for key, value in values.items()}})
+
+
+@pytest.mark.parametrize("model", FIELDS)
+def test_the_plan_chooses_among_what_was_measured_of_the_field(model: str) -> None:
+    made = choice.choose(field(model))
+    assert made.chosen is not None and made.chosen.method.model == model
+    assert made.meets and made.chosen.error_px <= 0.5
+    finer = choice.choose(field(model, rays__tolerance=0.05))
+    assert finer.chosen is not None and finer.chosen.cost >= made.chosen.cost
+
+
+def test_a_field_of_other_parameters_gets_a_control_that_judges_its_steps() -> None:
+    for values in ({"rays__lorenz__strength": 2e-3}, {"rays__field_radius": 20.0}):
+        made = plan.plan(field("lorenz", **values))
+        assert made.step_control is not None and made.step_control.traits.adapts
+
+
+def test_steps_that_are_stated_are_kept() -> None:
+    made = plan.plan(field("lorenz", rays__integrator="euler", rays__step_control="fixed", rays__step_length=0.3))
+    assert made.method == "lorenz, euler, fixed, Δt₀ = 0.3"
+
+
+def test_holes_are_not_planned_by_what_was_measured_of_fields() -> None:
+    for scene in (presets.load(["kerr"]), presets.load(["schwarzschild"])):
+        assert all(found.method.model not in FIELDS for found in choice.predictions(scene))
+        assert not any(method.model in FIELDS for method in sensible(scene))
+
+
+def test_a_field_is_its_own_truth() -> None:
+    scene = field("lorenz")
+    assert is_physical(scene) and true_scene(scene).rays.model == "lorenz"
+    assert {method.model for method in sensible(scene)} == {"lorenz"}
+    view = ChartScene("view", scene, 50)
+    assert len(view.rays) == 50 and np.all(np.isinf(view.epsilon))
+
+
+def test_the_panel_shows_a_hole_or_a_field_and_never_both() -> None:
+    panel = Panel()
+    of_field, of_hole = ({item.key for item in panel.shown_fields(scene)} for scene in (field("lorenz"), presets.load(["kerr"])))
+    assert "hole.spin" in of_hole and not any(key.startswith("rays.field_") for key in of_hole)
+    assert {"rays.field_radius", "rays.field_way", "rays.lorenz.rho"} <= of_field and not any(key.startswith("hole.") for key in of_field)
