@@ -124,19 +124,25 @@ vec3 way_out(Meeting met, Sight sight, Meeting next, bool kept) {
 #endif
 
 #if MEETINGS
-// The same after the things and media that come when `crossings` of the disk's plane have gone before.
-Light pass_meetings(Light light, Hits hits, Sight sights[MEETINGS], int crossings) {
-    for (int k = 0; k < MEETINGS; ++k) {
-        Meeting met = hits.meeting[k];
-        if (met.kind < 0 || met.before != crossings) continue;
-        Light own = Light(vec3(0.0), vec3(1.0));
-        Sight sight = sights[k];
+// What meeting k adds, and what it lets through of what lies behind it.
+Light meeting_light(Hits hits, int k, Sight sight) {
+    Light own = Light(vec3(0.0), vec3(1.0));
+    Meeting met = hits.meeting[k];
 #each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
 #if MEETINGS > 1
-        vec3 end = way_out(met, sight, hits.meeting[min(k + 1, MEETINGS - 1)], k + 1 < MEETINGS);
+    vec3 end = way_out(met, sight, hits.meeting[min(k + 1, MEETINGS - 1)], k + 1 < MEETINGS);
 #each medium : if (met.kind == MEDIUM_$KEY && met.enters) own = medium_$key_light(met.index, sight, end);
 #endif
-        light = Light(light.gathered + light.passed * own.gathered, light.passed * own.passed);
+    return own;
+}
+
+// The light after the meetings before which `first` to `last` crossings of the disk's plane come; `own`, that of each.
+Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
+    for (int k = 0; k < MEETINGS; ++k) {
+        Meeting met = hits.meeting[k];
+        bool here = met.kind >= 0 && met.before >= first && met.before <= last;
+        light.gathered += here ? light.passed * own[k].gathered : vec3(0.0);
+        light.passed *= here ? own[k].passed : vec3(1.0);
     }
     return light;
 }
@@ -146,36 +152,44 @@ void main() {
     Hits hits = shown_orders(fetch_hits(ivec2(gl_FragCoord.xy)));
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
 
-    Light light = Light(vec3(0.0), vec3(1.0));
-#if MEETINGS
-    Sight sights[MEETINGS];
-    for (int k = 0; k < MEETINGS; ++k) sights[k] = sight_of(hits.meeting[k], energy);
-    for (int n = 0; n < 3; ++n) {
-        light = pass_meetings(light, hits, sights, n);
-#if ORDERS > 0
-        Crossing crossing = crossing_of(hits.crossing[n], hits.fate);
-        if (may_be_covered(crossing)) light = pass_order(light, hits, crossing, energy);
-#endif
-    }
-    light = pass_meetings(light, hits, sights, 3);
-    passed = vec4(light.passed, 1.0);
-#else
-    // The crossings that may count come first, in order; at least one does in every pixel that gets here.
+    // The crossings that may count come first, in order. Without things at least one does in every pixel that gets here.
     Crossing first = crossing_of(hits.crossing[0], hits.fate), second = crossing_of(hits.crossing[1], hits.fate);
     Crossing third = crossing_of(hits.crossing[2], hits.fate);
-    bool more = may_be_covered(second), last = may_be_covered(third);
-    if (!more) { second = third; more = last; last = false; }
-    if (!may_be_covered(first)) { first = second; second = third; more = last; last = false; }
+    bool counts = may_be_covered(first), more = may_be_covered(second), last = may_be_covered(third);
+    ivec3 order = ivec3(0, 1, 2);
+    if (!more) { second = third; order.yz = order.zy; more = last; last = false; }
+    if (!counts) { first = second; second = third; order = order.yzx; counts = more; more = last; last = false; }
 
+    Light light = Light(vec3(0.0), vec3(1.0));
+#if MEETINGS
+    Light own[MEETINGS];
+    for (int k = 0; k < MEETINGS; ++k) own[k] = meeting_light(hits, k, sight_of(hits.meeting[k], energy));
+    int gone = 0;  // crossings
+#endif
+#if MEETINGS == 0 || ORDERS > 0
     bool left;
     do {
+#if MEETINGS
+        int upto = counts ? order.x : -1;
+        light = pass_meetings(light, hits, own, gone, upto);
+        gone = max(gone, upto + 1);
+        Light after = pass_order(light, hits, first, energy);
+        if (counts) light = after;
+        counts = more;
+#else
         light = pass_order(light, hits, first, energy);
+#endif
         left = more;
         first = second;
         second = third;
+        order = order.yzx;
         more = last;
         last = false;
     } while (left);
+#endif
+#if MEETINGS
+    light = pass_meetings(light, hits, own, gone, 3);
+    passed = vec4(light.passed, 1.0);
 #endif
     radiance = vec4(clamp(light.gathered, 0.0, BRIGHTEST), light.passed.x);
 }
