@@ -124,6 +124,15 @@ def toggle_pause(state: WindowState) -> None:
     state.paused = not state.paused
 
 
+def remove_picked(state: WindowState) -> None:
+    """Takes what is picked out of the scene."""
+    path = state.picked
+    if not path:
+        state.say("Nothing is picked. A click on a thing in the picture picks it.")
+    elif state.edit(lambda scene: scene.without(path)):
+        state.say(f"Removed {path.partition('.')[2]}.")
+
+
 _POSE = ("camera.distance", "camera.inclination_deg", "camera.azimuth_deg")
 
 
@@ -173,6 +182,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "reset_all": reset_all,
     "undo": WindowState.undo,
     "redo": WindowState.redo,
+    "remove": remove_picked,
     "help": flip("show_help"),
     "search": flip("show_search"),
     "picture_window": flip("show_picture_window"),

@@ -6,8 +6,8 @@ from imgui_bundle import imgui
 
 from .state import WindowState
 
-_PUT_AWAY = "panel_keys", "show_search", "show_picture_window", "show_help", "full_screen"
-"""Switches of the state, the uppermost first."""
+_PUT_AWAY = "panel_keys", "show_search", "show_picture_window", "show_help"
+"""Switches of the state, the uppermost first; then comes what is picked, and full screen is the last."""
 
 
 class Escape:
@@ -27,3 +27,7 @@ class Escape:
         uppermost = next((name for name in _PUT_AWAY if getattr(state, name)), None)
         if uppermost is not None:
             setattr(state, uppermost, False)
+        elif state.picked:
+            state.pick = ""
+        else:
+            state.full_screen = False

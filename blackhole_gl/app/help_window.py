@@ -17,6 +17,7 @@ _MOUSE = (
     ("Wheel, two fingers", "Move closer or away"),
     ("Middle drag", "Move closer (up) or away (down)"),
     ("Right drag", "Look around"),
+    ("Click on a thing", "Pick it: the panel shows it, DELETE removes it"),
     ("Click, with the path view open", "Show the ray of that pixel"),
     ("Drag the divider", "More of one side"),
     ("Double-click a value", "Back to the preset's"),
@@ -25,7 +26,7 @@ _MOUSE = (
     ("Click an orange dot", "Back to physics"),
     ("Drag or click the time", "Set the scene's time"),
     ("Drag the panel's edge", "Make the panel wider or narrower"),
-    ("ESC", "Leave a field, a list, a window, the panel's keys, full screen"),
+    ("ESC", "Leave a field, a list, a window, the panel's keys, what is picked, full screen"),
 )
 
 

@@ -1,22 +1,25 @@
-"""The scene's named instances in the panel: a group for each, with its values, a new name and a way out, and a line that makes another.
+"""The scene's named instances in the panel: a group for each, with its values, a new name, a copy and a way out, and a line that makes another.
 
-Items are named by key: ``###things.moon`` (the group), ``##name of things.moon``, ``Remove##things.moon``; ``##kind of new things``,
-``##name of new things``, ``Add##things``.
+Items are named by key: ``###things.moon`` (the group), ``##name of things.moon``, ``Duplicate##things.moon``, ``Remove##things.moon``;
+``##kind of new things``, ``##name of new things``, ``Add##things``.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 
 from imgui_bundle import imgui
 
-from ..scene import Scene, catalogue, instances
+from ..scene import Instance, Scene, catalogue, instances, met
 from ..scene.catalogue import KIND, PlugIn
-from ..scene.schema import Field
-from . import sought, text_fields
+from ..scene.schema import Field, Value, number_of
+from . import sought, text_fields, theme
 from .state import WindowState
 
 _TITLES = {"things": "Things", "media": "Media"}
+_NEXT_DEG = 30.0  # along its orbit, from a thing to its copy
+_APART = 2.5  # of its reach, likewise, where it rests
 
 Shown = Callable[[Field], bool]
 Table = Callable[[str, Iterable[Field]], None]
@@ -56,14 +59,22 @@ class InstanceGroups:
             imgui.set_next_item_open(True)
             self._to_open.discard(place.path)
         sought.open_group(state, [item.key for item in items])
-        if not imgui.collapsing_header(f"{place.name}: {kind.label.lower()}###{place.path}"):
+        imgui.push_style_color(imgui.Col_.text, theme.PICKED if state.picked == place.path else theme.TEXT)
+        is_open = imgui.collapsing_header(f"{place.name}: {kind.label.lower()}###{place.path}")
+        imgui.pop_style_color()
+        if not is_open:
             return
         table(f"values of {place.path}", items)
-        imgui.set_next_item_width(0.6 * imgui.get_content_region_avail().x)
+        width = (imgui.get_content_region_avail().x - 2.0 * imgui.get_style().item_spacing.x) / 3.0
+        imgui.set_next_item_width(width)
         name = text_fields.edited(f"##name of {place.path}", place.name)
         imgui.set_item_tooltip(f"Its name, which its keys begin with: {place.path}.{KIND}")
-        if name is not None and state.edit(lambda scene: scene.renamed(place.path, name)):
-            self._to_open.add(f"{place.section}.{name}")
+        if name is not None:
+            self._rename(state, place, name)
+        imgui.same_line()
+        if imgui.button(f"Duplicate##{place.path}", (width, 0.0)):
+            self._duplicate(state, place, kind)
+        imgui.set_item_tooltip("Another one like it, beside it, under a name of its own.")
         imgui.same_line()
         if imgui.button(f"Remove##{place.path}", (-1.0, 0.0)):
             state.edit(lambda scene: scene.without(place.path))
@@ -95,12 +106,42 @@ class InstanceGroups:
             state.complain(f"{section}.{name}: there is one already; the new one needs another name.")
         elif state.edit(lambda scene: scene.with_values({f"{section}.{name}.{KIND}": kind})):
             self._names[section] = ""
-            self._to_open.add(f"{section}.{name}")
+            self._take_up(state, f"{section}.{name}")
+
+    def _rename(self, state: WindowState, place: instances.Place, name: str) -> None:
+        was_picked = state.picked == place.path
+        if state.edit(lambda scene: scene.renamed(place.path, name)):
+            self._to_open.add(f"{place.section}.{name}")
+            state.pick = f"{place.section}.{name}" if was_picked else state.pick
+
+    def _duplicate(self, state: WindowState, place: instances.Place, kind: PlugIn) -> None:
+        instance = getattr(state.scene, place.section)[place.name]
+        path = f"{place.section}.{_free_name(place.name.rstrip('0123456789'), state.scene, place.section)}"
+        values = {KIND: instance.kind, **instance.values, **_beside(instance, kind)}
+        if state.edit(lambda scene: scene.with_values({f"{path}.{name}": value for name, value in values.items()})):
+            self._take_up(state, path)
+
+    def _take_up(self, state: WindowState, path: str) -> None:
+        """Shows what has just been made: in the panel and, where it is seen, in the picture."""
+        self._to_open.add(path)
+        state.pick = path
 
 
-def _free_name(kind: str, scene: Scene, section: str) -> str:
-    """A name that a new instance of `kind` can have: the kind's, with a number behind it where it is taken."""
-    stem, count = kind[: instances.LONGEST_NAME - 3], 1
+def _beside(instance: Instance, kind: PlugIn) -> dict[str, Value]:
+    """The values in which a copy of `instance` differs from it, so that both are seen."""
+    traits, values = kind.traits, instance.values
+    if traits.moves and values["path"] != "fixed":
+        return {"orbit_phase_deg": math.remainder(number_of(values["orbit_phase_deg"]) + _NEXT_DEG, 360.0)}
+    axis = "x" if traits.moves else next(iter(traits.centre), "")
+    if not axis:
+        return {}
+    wanted = number_of(values[axis]) + _APART * met.extent(instance, traits)
+    return {axis: min(wanted, kind.parameters[axis].high)}
+
+
+def _free_name(wanted: str, scene: Scene, section: str) -> str:
+    """A name that a new instance can have: as `wanted`, with a number behind it where it is taken."""
+    stem, count = wanted[: instances.LONGEST_NAME - 3], 1
     name = stem
     while name in getattr(scene, section):
         count += 1

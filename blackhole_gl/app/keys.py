@@ -72,6 +72,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("reset_all", ("SHIFT+R",), "Everything back to the presets in force"),
     Action("undo", ("CTRL+Z",), "Undo"),
     Action("redo", ("CTRL+SHIFT+Z", "CTRL+Y"), "Redo"),
+    Action("remove", ("DELETE",), "Remove the thing that is picked"),
     Action("help", ("F1", "H"), "This window"),
     Action("search", ("CTRL+P",), "Search settings, presets, views and commands"),
     Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),

@@ -17,6 +17,7 @@ from ..render.views import Scale, scale_of
 from ..scene import SceneError
 from . import path_world, theme, view_scale
 from .area import Area
+from .click import Click
 from .path_world import PathWorld
 from .paths import Asked, Paths, Shown, told, within
 from .state import WindowState
@@ -24,7 +25,6 @@ from .state import WindowState
 TITLE = "Paths of light"
 _LOCAL_ERROR = Scale(1e-7, 0.1, "rad", True, False, (1e-7, 1e-5, 1e-3, 0.1))
 _COLOURED_BY = ("error of the step", "drift of what is conserved")
-_STILL = 3.0  # in units of a 96 dpi screen: a click during which the mouse moves farther is a drag
 _REACH = 8.0  # how near to a dot the mouse must be
 _LIST_EM = 21.0
 _SCALE_EM, _PICKER_EM = 3.0, 16.0
@@ -52,7 +52,7 @@ class PathView:
         self.paths = Paths()
         self._recorder: Recorder | None = None
         self.coloured_by = 0
-        self._pressed: Corner | None = None
+        self._click = Click()
         self._fit_next = True
 
     @property
@@ -82,26 +82,14 @@ class PathView:
             area: of the picture, in framebuffer pixels.
         """
         if not state.show_paths or area.is_empty:
-            self._pressed = None
+            self._click.forget()
             return
-        self._take_click(state, left_top, size, area)
+        place = self._click.poll(left_top, size)
+        if place is not None:
+            pixel = math.floor(place[0] * area.width) + 0.5, math.floor(place[1] * area.height) + 0.5
+            self.paths.ask(Asked(state.scene, area.size, pixel))
         self._mark_pixels(state, left_top, size)
         self._draw(state)
-
-    def _take_click(self, state: WindowState, left_top: Corner, size: Corner, area: Area) -> None:
-        """A click is a press and a release in one place: what moves between them orbits."""
-        io = imgui.get_io()
-        here = io.mouse_pos.x, io.mouse_pos.y
-        if imgui.is_mouse_clicked(imgui.MouseButton_.left):
-            self._pressed = None if io.want_capture_mouse else here
-        if self._pressed is None or not imgui.is_mouse_released(imgui.MouseButton_.left):
-            return
-        still = math.dist(self._pressed, here) <= _STILL * hello_imgui.em_size() / theme.FONT_SIZE
-        self._pressed = None
-        x, y = (here[0] - left_top[0]) / size[0], 1.0 - (here[1] - left_top[1]) / size[1]
-        if still and 0.0 <= x < 1.0 and 0.0 < y <= 1.0:
-            pixel = math.floor(x * area.width) + 0.5, math.floor(y * area.height) + 0.5
-            self.paths.ask(Asked(state.scene, area.size, pixel))
 
     def _mark_pixels(self, state: WindowState, left_top: Corner, size: Corner) -> None:
         canvas, em = imgui.get_background_draw_list(), hello_imgui.em_size()

@@ -12,9 +12,13 @@ from .state import Sought, WindowState
 _MARKED_S = 4.0
 
 
-def seek(state: WindowState, key: str) -> None:
-    """Has the panel show the setting `key`."""
-    state.sought, state.show_panel = Sought(key), True
+def seek(state: WindowState, key: str, *, reveal: bool = True) -> None:
+    """Has the panel show the setting `key`.
+
+    Args:
+        reveal: where the panel is put away, have it come back; else it shows the setting whenever it does.
+    """
+    state.sought, state.show_panel = Sought(key), state.show_panel or reveal
 
 
 def open_group(state: WindowState, keys: Iterable[str]) -> None:

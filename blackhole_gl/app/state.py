@@ -50,6 +50,7 @@ class WindowState:
         file: what the panel's file field says.
         panel_keys: whether TAB, arrows, SPACE and ENTER work the panel.
         sought: the setting that the panel is to show.
+        pick: the key of the thing or medium that was clicked, ``things.moon``; empty for none.
         replace_file: the path that the next Save may overwrite.
         asked_for_files: the preset whose files outside its folder were just left out; see `files_outside`.
         way_out: a line for where nothing is to be seen; empty elsewhere.
@@ -78,6 +79,7 @@ class WindowState:
     show_picture_window: bool = False
     panel_keys: bool = False
     sought: Sought | None = None
+    pick: str = ""
     full_screen: bool = False
     picture_wanted: bool = False
     file: str = "scene.toml"
@@ -124,6 +126,12 @@ class WindowState:
             return self.home.get(item.key)
         except SceneError:
             return item.default
+
+    @property
+    def picked(self) -> str:
+        """`pick`, unless that is in the scene no more: then empty."""
+        section, _, name = self.pick.partition(".")
+        return self.pick if name and name in getattr(self.scene, section) else ""
 
     def record(self) -> None:
         """Makes what has changed since the last step a step that can be undone. The camera counts as where it is bound for."""

@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 FONT_SIZE = 15.0  # at 96 dpi; the runner scales it for the screen at hand
 
 ACCENT = ImVec4(0.95, 0.62, 0.25, 1.0)
+PICKED = ImVec4(0.47, 0.84, 1.0, 1.0)
 DEPARTS = ImVec4(0.98, 0.52, 0.22, 1.0)
 ERROR = ImVec4(1.0, 0.45, 0.40, 1.0)
 DIM = ImVec4(0.62, 0.64, 0.68, 1.0)

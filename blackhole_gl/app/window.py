@@ -48,6 +48,7 @@ from .opening import WindowError, open_platform
 from .panel import Panel
 from .panel_width import PanelWidth
 from .path_view import PathView
+from .picking import Picking
 from .picture import Picture
 from .picture_window import PictureWindow
 from .preparation import Preparation
@@ -193,6 +194,7 @@ class Window:
         self.path_view = PathView()
         self._mouse_values = MouseValues()
         self._labels = LabelOverlay()
+        self._picking = Picking()
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
         self._may_idle = may_idle
@@ -268,6 +270,7 @@ class Window:
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         self._mouse_values.frame(state, (view.left, view.top), (view.width, view.height))
         self._labels.draw(state, (view.left, view.top), (view.width, view.height))
+        self._picking.frame(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
         foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
         overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
@@ -305,6 +308,7 @@ class Window:
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture_window.advance(self._gl, self.state)
         self._mouse_values.advance(self.picture)
+        self._picking.advance(self._gl, self.state, self.picture)
         self.picture.draw(window, view.area)
         if self.picture.is_current and self.state.render_error is None:
             self._way_out.advance(self.state, window, view.area)

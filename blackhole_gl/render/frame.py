@@ -13,7 +13,7 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, pixel_values, supersampling, views
+from . import diagnostics, instance_numbers, pixel_values, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -279,11 +279,26 @@ class Renderer:
 
     def values_at(self, place: tuple[float, float]) -> PixelValues | None:
         """What the ray meets at `place` of the last frame, its width and height counted 0…1 from the bottom left; None where no pixel has a ray of its own."""
+        found = self._ray_at(place)
+        return None if found is None else pixel_values.of(*found)
+
+    def instance_at(self, place: tuple[float, float]) -> str | None:
+        """The key of the thing or medium that is met at `place`, such as ``things.moon``, empty where there is none; None and `place` as in `values_at`."""
+        found = self._ray_at(place)
+        return None if found is None else instance_numbers.picked(found[0].plan.scene, found[1].met)
+
+    def pixels_of(self, scene: Scene, path: str) -> np.ndarray | None:
+        """The pixels of the last frame, one of `scene`, whose rays meet the instance called `path`, bool (height, width), bottom row first; None where not
+        every pixel has a ray of its own, or no ray can meet it."""
+        number = instance_numbers.number_of(scene, path)
+        return self.hit_map.where_met(number) if number is not None and self.hit_map.textures and self.hit_map.is_sharp else None
+
+    def _ray_at(self, place: tuple[float, float]) -> tuple[FrameInputs, HitArrays, tuple[int, int]] | None:
         if not self.hit_map.textures:
             return None
         pixel = math.floor(place[0] * self.hit_map.textures[0].width), math.floor(place[1] * self.hit_map.textures[0].height)
         found = self.hit_map.at(pixel)
-        return None if found is None else pixel_values.of(*found, pixel)
+        return None if found is None else (*found, pixel)
 
     def view_of(self, scene: Scene) -> views.View | None:
         """The diagnostic view that `scene` asks for, with the scale of the last frame; None for the picture itself."""

@@ -18,6 +18,7 @@ from . import hit_texels, instances, reach, refinement
 from .classes import OWN_RAYS, THINGS
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
+from .instance_numbers import Number
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .squares import Squares
@@ -334,6 +335,16 @@ class HitMap:
         found = hit_texels.unpacked(texels, plan.orders, plan.meetings)
         found = replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
         return self._last, found.each(lambda values: values.reshape(values.shape[1:]))
+
+    def where_met(self, number: Number) -> np.ndarray:
+        """The pixels whose rays meet the instance of that number, bool (height, width), of a sharp map. Waits for the GPU."""
+        plan = self._traced.plan
+        places = self.textures[hit_texels.textures(plan.orders) :: 2]
+        found = np.zeros(self.textures[0].size[::-1], bool)
+        for texture in places:
+            met = hit_texels.met_of(_texels(texture))
+            found |= (met[..., 0] == number[0]) & (met[..., 1] == number[1])
+        return found
 
     def fates_and_steps(self) -> tuple[np.ndarray, np.ndarray]:
         """Of a sharp map, as int (height, width): a third of what `read` brings to the host, and none of its arithmetic."""

@@ -89,10 +89,15 @@ def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: i
     if not meetings:
         return found
     places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)
-    packed = places[..., 3].astype(np.int32)
-    met = np.where(packed[..., None] > 0, np.stack([(packed & 31) - 1, packed >> 8, (packed >> 5) & 3], axis=-1), -1)
+    met = met_of(places)
     rates = np.stack(texels[plane + 1 : plane + 2 * meetings : 2], axis=-2)
     return replace(found, met=met, met_place=places[..., :3], met_rates=rates)
+
+
+def met_of(texels: Float[Array, "*rays 4"]) -> Int[Array, "*rays 3"]:
+    """`HitArrays.met` (…, 3) of one meeting, from its texture of places."""
+    packed = texels[..., 3].astype(np.int32)
+    return np.where(packed[..., None] > 0, np.stack([(packed & 31) - 1, packed >> 8, (packed >> 5) & 3], axis=-1), -1)
 
 
 def momenta(texels: Sequence[Float[Array, "*rays 4"]], crossing: Float[Array, "*rays 3 2"]) -> Float[Array, "*rays 3 2"]:

@@ -18,12 +18,14 @@ from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that 
 # isort: split
 import scenarios  # noqa: E402
 import scenarios_entry  # noqa: E402
+import scenarios_things  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
 from hands import Hands  # noqa: E402
 
 from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
+MODULES = (scenarios, scenarios_entry, scenarios_things)
 SIZE = (900, 640)
 PRESETS = ["kerr", "blackholegpu_low"]
 TIMEOUT_S = 200.0  # of a scenario; most take a second
@@ -80,9 +82,9 @@ def real_renderer(folder: Path):
 
 
 def main() -> int:
-    chosen = [getattr(scenarios, name, None) or getattr(scenarios_entry, name) for name in sys.argv[1:]]
+    chosen = [next(getattr(module, name) for module in MODULES if hasattr(module, name)) for name in sys.argv[1:]]
     with tempfile.TemporaryDirectory() as folder:
-        real = any(scenario in scenarios.WITH_THE_REAL_RENDERER for scenario in chosen)
+        real = any(scenario in (*scenarios.WITH_THE_REAL_RENDERER, *scenarios_things.WITH_THE_REAL_RENDERER) for scenario in chosen)
         maker = real_renderer(Path(folder)) if real else FakeRenderer
         driver = EngineDriver(chosen, Path(folder))
         window.run(presets.load(PRESETS), null_platform=True, size=SIZE, picture_folder=Path(folder) / scenarios.PICTURES, make_renderer=maker, driver=driver)

@@ -102,5 +102,11 @@ class FakeRenderer:
         disk = OnDisk(1, 3.25, 0.5, 0.8, 4100.0)
         return PixelValues(Fate.ESCAPED, -2.5, 7.0, math.nan, None, disk, (1.2, 0.4), "")
 
+    def instance_at(self, place):
+        return ""
+
+    def pixels_of(self, scene, path):
+        return np.zeros((2, 2), bool)
+
     def fates_and_steps(self):
         return np.ones((2, 2), int), np.full((2, 2), 10)

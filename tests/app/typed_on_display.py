@@ -29,7 +29,7 @@ HELD_S = 0.4  # in which a key would do more than it should
 COMES_S = 20.0  # in which what a key does is to be seen: on a busy machine a frame may take seconds
 _X_NAMES = {
     "SPACE": "space", "TAB": "Tab", "ESC": "Escape", "PAGE_UP": "Prior", "PAGE_DOWN": "Next", "LEFT": "Left", "RIGHT": "Right", "UP": "Up", "DOWN": "Down",
-    "PLUS": "plus", "EQUAL": "equal", "MINUS": "minus", "KEYPAD_ADD": "KP_Add", "KEYPAD_SUBTRACT": "KP_Subtract",
+    "DELETE": "Delete", "PLUS": "plus", "EQUAL": "equal", "MINUS": "minus", "KEYPAD_ADD": "KP_Add", "KEYPAD_SUBTRACT": "KP_Subtract",
 }  # fmt: skip
 
 
