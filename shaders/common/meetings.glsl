@@ -91,6 +91,11 @@ struct Found {
 
 const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
 
+// Whether the piece from x to y comes into the ball of that radius about the middle of a leaf's box: an instance lies within the largest that fits into its own.
+bool meets_ball(Node leaf, float radius, vec3 x, vec3 y) {
+    return beside(0.5 * (leaf.low.xyz + leaf.high.xyz) - x, y - x) <= radius * radius;
+}
+
 // The first of all that the piece from x to y meets. `allowed` is how far the way may stray from it: where that is less than `stray`, the piece is too long for what
 // it is near to, and nothing else is told.
 Found first_on_piece(vec3 x, vec3 y, float stray, out float allowed) {
@@ -101,8 +106,8 @@ Found first_on_piece(vec3 x, vec3 y, float stray, out float allowed) {
     while (number >= 0) {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, min(found.at, 1.0));
-        if (met && is_leaf(node)) {
-            float size = half_width(node);
+        float size = half_width(node);
+        if (met && is_leaf(node) && meets_ball(node, size + piece.pad, x, y)) {
             allowed = min(allowed, max(stray_allowed(size), piece.pad - stray));  // no finer than single precision
             int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
             bool enters;
@@ -126,7 +131,7 @@ bool may_meet(Path a, Path b, float h) {
     while (number >= 0) {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
-        near = met && is_leaf(node);
+        near = met && is_leaf(node) && meets_ball(node, half_width(node) + piece.pad, x, y);
 #if MEETINGS_BY_DISTANCE
         int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);
