@@ -27,7 +27,7 @@ from studies.table import Origin, origin, short, write_records
 
 _RAYS = 400
 _SIZE = (192, 108)  # pixels of a timed frame
-_ROUNDS = 3
+_ROUNDS = 7
 _CAMERA = {"camera.distance": 25.0, "camera.inclination_deg": 75.0, "camera.azimuth_deg": 20.0, "camera.fov_deg": 45.0}
 
 
@@ -68,7 +68,7 @@ def _row(renderer: Renderer, item: ChartScene, method: Combination, setting: flo
     errors = compare(found, item.truth, np.ones(len(item.rays), bool))
     for uncounted in (flat, made):
         renderer.time_trace(uncounted, _SIZE)
-    taken, yard = ([renderer.time_trace(one, _SIZE) for _ in range(_ROUNDS)] for one in (made, flat))
+    taken, yard = zip(*((renderer.time_trace(made, _SIZE), renderer.time_trace(flat, _SIZE)) for _ in range(_ROUNDS)))
     steps = {"length": math.nan, "tolerance": math.nan, method.knob: setting}
     return Measured(
         scene=f"field_{item.name}", spin=0.0, distance=camera.distance, inclination_deg=camera.inclination_deg, fov_deg=camera.fov_deg,
