@@ -21,6 +21,9 @@ out float node; // fate, and half of one where it comes near
 
 const int PIECES = 4; // of a step that is no cubic in space
 
+// What is met in such a step into the hole is found on a curve that may leave the ray by this share of the distance from it (common/curve.glsl).
+const float BENT = 0.5, BENT_WITHIN = 1.5;
+
 // A step from a to b is a cubic before the twist and before the division by w.
 bool is_bent(Path a, Path b, Spot from, Spot to) {
     float r2 = dot(from.x, from.x), end2 = dot(to.x, to.x);
@@ -71,11 +74,14 @@ void main() {
         float margin_before = margin;
         margin = reach_margin(here);
         int pieces = under_way && is_bent(old, path, before, here) ? PIECES : 1, done = 0;
+        float way = distance(before.x, here.x);
+        vec3 begun = before.x;
         do {
-            float share = float(done) / float(pieces), next = float(done + 1) / float(pieces);
-            Spot after = spot_at(orbit, m, next * part);
+            Spot after = spot_at(orbit, m, float(done + 1) / float(pieces) * part);
             if (done + 1 == pieces) after = here;
-            near = near || under_way && comes_near(before, after, mix(vec2(margin_before), vec2(margin), vec2(share, next)));
+            vec2 gone = min(vec2(distance(begun, before.x), distance(begun, after.x)) / max(way, 1e-20), 1.0);
+            vec2 margins = mix(vec2(margin_before), vec2(margin), gone) + (falls && pieces > 1 ? BENT * min(length(after.x), BENT_WITHIN) : 0.0);
+            near = near || under_way && comes_near(before, after, margins);
             before = after;
         } while (++done < pieces);
         fate = under_way ? (leaves ? ESCAPED : falls ? CAPTURED : UNRESOLVED) : fate;
