@@ -4,12 +4,15 @@
 
 glow: a picture at rest while time runs, its glow made for every second frame, against one made for each.
 edges: a picture under a moving camera with several rays in the pixels at edges, against one ray in each.
+things: ten spheres and the disk under a moving camera, against the disk alone.
+orbit: ten spheres before a camera at rest, one of them on an orbit, against all of them at rest.
 stars: a picture of half the size under a moving camera, enlarged with its stars drawn over it, against one that is only enlarged.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import time as clock
 from collections.abc import Callable
 from statistics import median, quantiles
@@ -60,6 +63,40 @@ def stars(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Fram
     return lambda number: frame(number, with_stars, 0.0), lambda number: frame(number, without, 0.01)  # another view, or it would keep the rays
 
 
+def ten_spheres(scene: Scene, *, orbiting: bool) -> Scene:
+    """`scene` with ten spheres about the hole, the first of them on an orbit or at rest."""
+    values: dict[str, object] = {}
+    for k in range(10):
+        r, around = 4.0 + 0.9 * k, 0.2 * math.pi * k
+        place = {"x": r * math.cos(around), "y": r * math.sin(around), "z": 1.5 * math.sin(3.0 * around) + 1.0}
+        values |= {f"things.s{k}.{key}": value for key, value in {"kind": "sphere", "radius": 0.24 + 0.04 * k, **place}.items()}
+    if orbiting:
+        values |= {"things.s0.path": "geodesic", "things.s0.orbit_radius": 6.0, "things.s0.orbit_tilt_deg": 20.0}
+    return scene.with_values(values)
+
+
+def things(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """A camera that turns in both angles."""
+    other, with_things = Renderer(renderer.ctx), ten_spheres(scene, orbiting=False)
+
+    def frame(number: int, drawn_by: Renderer, seen: Scene) -> None:
+        turn = 0.5 * (number + 3)
+        turned = seen.with_values({"camera.azimuth_deg": turn, "camera.inclination_deg": 75.0 + turn % 10.0})
+        drawn_by.render(turned, FRAME_S * number, size, progressive=True)
+
+    return lambda number: frame(number, renderer, with_things), lambda number: frame(number, other, scene)
+
+
+def orbit(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """Frames of a running clock."""
+    other, moves, rests = Renderer(renderer.ctx), ten_spheres(scene, orbiting=True), ten_spheres(scene, orbiting=False)
+
+    def frame(number: int, drawn_by: Renderer, seen: Scene) -> None:
+        drawn_by.render(seen, 4.0 * FRAME_S * (number + 3), size)
+
+    return lambda number: frame(number, renderer, moves), lambda number: frame(number, other, rests)
+
+
 class _NoStars:
     """A renderer that draws its stars with the rest."""
 
@@ -73,7 +110,7 @@ class _NoStars:
         pass
 
 
-COMPARED = {"glow": glow, "edges": edges, "stars": stars}
+COMPARED = {"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars}
 
 
 def spent(renderer: Renderer, frames: Frames, number: int) -> float:
