@@ -50,6 +50,18 @@ SHOTS = (
     Shot("luminet_1979", ("luminet_1979",)),
     Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
     Shot("labels", ("kerr",), {"post.labels": True}),
+    Shot("objects_black_hole", ("objects_black_hole",)),
+    Shot("objects_refraction", ("objects_refraction",)),
+    Shot("mirage", ("mirage",)),
+    Shot("galaxies_through_a_hole", ("galaxies_through_a_hole",)),
+    Shot("objects_potential", ("objects_potential",)),
+    Shot("objects_lorenz", ("objects_lorenz",)),
+    Shot("crystal_ball", ("crystal_ball",)),
+    Shot("galaxies_through_a_screen_lens", ("galaxies_through_a_screen_lens",)),
+    Shot("fish_eye", ("fish_eye",)),
+    Shot("explosion", ("explosion",)),
+    Shot("objects_roessler", ("objects_roessler",)),
+    Shot("objects_undistorted", ("objects_undistorted",)),
 )
 
 

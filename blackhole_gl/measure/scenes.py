@@ -146,4 +146,5 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
 
 def is_charted(scene: Scene) -> bool:
     """Whether the chart measures `scene`: a hole as it is, and nothing to meet but the disk, as the float64 reference knows no more."""
-    return is_physical(scene) and met.is_empty(scene) and scene.rays.lensing and not is_field(scene)
+    plain = met.is_empty(scene) and scene.sky.model != "picture"  # which a hole bends as it does any sky
+    return is_physical(scene) and plain and scene.rays.lensing and not is_field(scene)

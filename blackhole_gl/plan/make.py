@@ -64,6 +64,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     reach, reach_steps = met.reach(scene), _reach_steps(scene, model, control)
     refine, why_refine = _refines(scene, model, chosen, reach_steps)
     reasons.append(why_refine)
+    reasons += _what_lens(scene)
     inner, outer = _disk_radii(scene, where)
     return Plan(
         scene=scene,
@@ -98,9 +99,10 @@ def _why_longer(stretch: float, max_steps: int) -> tuple[str, ...]:
 def _why_coarse(scene: Scene, made: choice.Choice) -> tuple[str, ...]:
     """What to say of `scene`, which leaves nothing open, where it errs more than its tolerance allows.
 
-    Nothing where that was not measured, and of models that are looks, which say so themselves.
+    Nothing where that was not measured, and of models that are looks or know no gravity, which say so themselves.
     """
-    if not ray_model(scene).traits.exact:
+    traits = ray_model(scene).traits
+    if not traits.exact or traits.space_time == "flat":
         return ()
     allowed = scene.rays.tolerance
     if not made.meets:
@@ -120,6 +122,17 @@ def _why_slower(scene: Scene, where: SpaceTime) -> tuple[str, ...]:
             if motion.outruns_light(instance, kinds[instance.kind].traits, where):
                 found.append(f"{section}.{name} goes round faster than light can: its light is shifted as if it were just slower than that")
     return tuple(found)
+
+
+def _what_lens(scene: Scene) -> list[str]:
+    """Where the Einstein ring of the lens over the finished picture is."""
+    if not scene.post.lens:
+        return []
+    if math.isinf(scene.camera.distance):
+        return ["post.lens displaces nothing from infinity"]
+    ring = math.degrees(math.atan(math.sqrt(2.0 * scene.post.lens_radius / scene.camera.distance)))
+    bent = "" if scene.rays.model == "flat" or not scene.rays.lensing else ", on top of what the rays do"
+    return [f"post.lens displaces the picture about an Einstein ring of {ring:.3g}° round the hole's place{bent}"]
 
 
 def _meetings(scene: Scene) -> int:

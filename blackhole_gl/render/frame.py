@@ -126,6 +126,7 @@ class Renderer:
             ShaderError: a shader has a mistake.
         """
         stamps = [clock.perf_counter()]
+        shown = None if scene.post.lens else shown  # stars would not be displaced with the rest
         inputs = self._last = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)

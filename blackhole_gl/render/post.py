@@ -80,7 +80,7 @@ class PostPass:
         self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
         if inputs.plan.scene.post.bloom:
             self.samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
-        if viewport[2:] == radiance.size:
+        if viewport[2:] == radiance.size and not inputs.plan.scene.post.lens:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
         tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
         tone_map.sample(self.samplers)

@@ -203,6 +203,15 @@ class Post:
     bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")
     bloom_intensity: float = number(0.45, 0.0, 2.0, "", "Strength of the glow.")
     bloom_spread: float = number(1.0, 0.1, 3.0, "×", "Width of the glow.")
+    lens: bool = switch(
+        False,
+        "Displace the finished picture about the hole's place on it, as a thin lens does with what lies far behind: offset ×= 1 − 2 Rad/(ρ √D)², with ρ on a "
+        "screen at distance 1 and the camera's distance D, whatever the rays did before. From infinity nothing is displaced.",
+        physical=False,
+    )
+    lens_radius: float = number(1.0, 0.0, 100.0, "r_s", "Rad there, 1 for the hole itself. Its Einstein ring is √(2 Rad/D) from the hole on that screen.")
+    lens_shadow: float = number(1.0, 0.0, 100.0, "r_s", "Radius of the black disc over the displaced picture, seen at the hole's distance.")
+    lens_ring: bool = switch(False, "Draw a line where the Einstein ring is.")
     tone_map: str = choice("aces", ("linear", "reinhard", "aces", "agx"), "How scene radiance becomes screen brightness.")
     gamma: float = number(1.0, 0.2, 3.0, "", "Creative gamma on top of the screen's own.")
     dither: bool = switch(True, "Noise of less than one grey level against banding in the dark sky.")

@@ -5,6 +5,7 @@
 #include "common/tone_table.glsl"
 #include "common/tone.glsl"
 #include "common/developed.glsl"
+#include "common/lensed_picture.glsl"
 
 uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not: docs/llvmpipe.md, texels
 #if POST_BLOOM
@@ -25,12 +26,22 @@ vec3 dither_noise(vec2 pixel) {
 }
 
 void main() {
-    vec2 pixel = gl_FragCoord.xy - target_origin;
-    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb;
+    vec2 pixel = gl_FragCoord.xy - target_origin, place = pixel * target_texel;
+#if POST_LENS
+    vec3 hole = from_hole(place);
+    place = lensed_place(place, hole);
+#endif
+    vec3 light = textureLod(radiance, place, 0.0).rgb;
 #if POST_BLOOM
-    light += post_bloom_intensity * textureLod(glow, pixel * target_texel, 0.0).rgb;
+    light += post_bloom_intensity * textureLod(glow, place, 0.0).rgb;
+#endif
+#if POST_LENS
+    light *= lens_cover(hole);
 #endif
     vec3 code = developed(light);
+#if POST_LENS && POST_LENS_RING
+    code = mix(code, vec3(0.25, 0.9, 0.45), lens_ring(hole));
+#endif
 #if POST_DITHER
     // One grey level at most, less near black and white, so that both stay clean.
     code += dither_noise(pixel) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));

@@ -162,6 +162,7 @@ def test_steps_that_err_more_than_is_allowed_are_told():
     assert not planned(**stated, rays__step_angle=0.05).warnings
     assert not planned(**stated, rays__step_angle=0.4, rays__tolerance=50.0).warnings
     assert not planned(rays__model="weak_field").warnings, "a look, and marked as one"
+    assert not planned(rays__model="flat").warnings, "straight rays are what was asked for"
 
 
 def test_a_tolerance_that_cannot_be_met_is_told():

@@ -43,7 +43,7 @@ S1_STEPS = {
 }
 
 LEVELS = [info.name for info in SHIPPED if info.group == "quality"]
-WHOLE = [info.name for info in SHIPPED if info.group in ("physics", "scene")]
+WHOLE = [info.name for info in SHIPPED if info.group in ("physics", "scene") and presets.load([info.name]).rays.lensing]
 
 # a*, inclination in degrees
 PHYSICAL = {"schwarzschild": (0.0, 80.0), "kerr_06": (0.6, None), "kerr_0998_85": (0.998, 85.0), "m87_like": (0.9, 17.0)}
