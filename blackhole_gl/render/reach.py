@@ -20,7 +20,8 @@ from .target import Target
 MOST_BALLS = 24
 """Balls that rays are held against; more are put together in larger ones."""
 
-_ALONE = {"ORDERS": 0, "MEETINGS": 0}  # the rays end on nothing and look for no crossing
+ALONE = {"ORDERS": 0, "MEETINGS": 0}
+"""The switches of rays that end on nothing and look for no crossing."""
 
 # Rays end where they leave this shell: horizon radii, and r_s about a hole of strength 1, outside which none turns back.
 _INNERMOST, _OUTERMOST = 1.02, 3.0
@@ -54,7 +55,7 @@ class Reach:
     def draw(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
         """R8, 1 for each square of ``REACH_STEP``² pixels that may show anything within `balls`, centre and radius each in r_s in the plan's frame."""
         made = self._targets(inputs.size)
-        nodes = self._programs.get("reach_nodes.frag", inputs, _ALONE)
+        nodes = self._programs.get("reach_nodes.frag", inputs, ALONE)
         few = gathered(balls, MOST_BALLS)
         self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
         nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))

@@ -11,6 +11,7 @@ from blackhole_gl.render.diagnostics import most_accurate, prepared
 from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
+from blackhole_gl.render.reach import ALONE
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
 
@@ -119,6 +120,8 @@ def _of_instances() -> Iterator[Wanted]:
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1})):
                 yield path, f"{kind} by {model}", made, switches
+            yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
+            yield "reach_cells.frag", f"{kind} by {model}", made, {}
 
 
 def _of_views() -> Iterator[Wanted]:
