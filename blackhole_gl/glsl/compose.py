@@ -16,16 +16,16 @@ moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses th
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TypeAlias
 
 from ..text_files import TextError, read_text
-from .live import Words, live_words, numbered_live_lines
+from .live import Words, live_words, names, numbered_live_lines
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
-_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _CALLED = re.compile(r"\w*\$key\w*(?=\()")  # functions of a plug-in, in a line for each
 _OF_SLOT = {  # functions of a slot of one plug-in, by their names, where they are called
     "ray_model": re.compile(r"\b(?:trace_ray|(?:ray|state)_[a-z]\w*)(?=\()"),
@@ -119,20 +119,21 @@ def compose(
         ShaderError: a file or a slot is missing, a directive is malformed, or a plug-in lacks a function of its slot that is called.
     """
     reader = _Reader(roots, chosen or {})
-    lines = list(reader.lines(path))
-    mentioned = {word for text, _ in lines for word in _WORD.findall(text.partition("//")[0])}
+    lines = reader.lines(path)
+    mentioned = frozenset[str]().union(*(names(text) for text, _ in lines))
     used = {name: value for name, value in (switches or {}).items() if name in mentioned}
     words = live_words((text for text, _ in lines), used)
     out: list[Line] = []
     for text, place in lines:
-        if text.strip() == "#defines":
-            out.extend((f"#define {name} {value}", place) for name, value in used.items())
-        elif text.strip() == "#blocks":
-            out.extend((line, place) for line in blocks(words).splitlines())
-        elif text.strip() == "#instances":
-            out.extend((line, place) for line in instances.splitlines())
-        else:
-            out.append((text, place))
+        match text.strip():
+            case "#defines":
+                out.extend((f"#define {name} {value}", place) for name, value in used.items())
+            case "#blocks":
+                out.extend((line, place) for line in blocks(words).splitlines())
+            case "#instances":
+                out.extend((line, place) for line in instances.splitlines())
+            case _:
+                out.append((text, place))
     reader.refuse_missing(out, used)
     composed = "\n".join(text for text, _ in out) + "\n"
     return Composed(composed, tuple(place for _, place in out), used, words)
@@ -146,26 +147,23 @@ class _Reader:
         self._seen: set[str] = set()
         self._called: dict[str, str] = {}  # in lines for each: function → the plug-in that has to have it, by its file
 
-    def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> Iterator[Line]:
+    def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> list[Line]:
         """Each line of the file at `path`, and of what it brings in, with its place."""
         if path in self._seen:
-            return
+            return []
         self._seen.add(path)
         root, shown = self._found(path)
-        in_comment = False
-        for number, text in enumerate(_source(root / path, path, shown, asked_at).splitlines(), start=1):
-            place = (shown, number)
-            match = None if in_comment else _DIRECTIVE.match(text)
-            in_comment = _comment_open(text, in_comment)
-            if match is None or match[1] in ("defines", "blocks", "instances"):
-                yield text, place
-            elif match[1] == "include":
-                name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', match[2].strip())
+        lines: list[Line] = []
+        for part in _parts(_source(root / path, path, shown, asked_at), shown):
+            lines += part.lines
+            if part.directive == "include":
+                name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', part.rest)
                 if name is None:
-                    raise ShaderError('write #include "path below shaders/"', *place)
-                yield from self.lines(name[1], place)
-            else:
-                yield from self._slot(match[1], match[2], place)
+                    raise ShaderError('write #include "path below shaders/"', *part.place)
+                lines += self.lines(name[1], part.place)
+            elif part.directive:
+                lines += self._slot(part.directive, part.rest, part.place)
+        return lines
 
     def refuse_missing(self, lines: Sequence[Line], switches: Mapping[str, int]) -> None:
         """Refuses the composed `lines` where a plug-in of the user's lacks functions that others call in it."""
@@ -177,32 +175,61 @@ class _Reader:
         whole = "\n".join(text for text, _ in compiled)
         given = set(_GIVEN.findall(whole))
         asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users and function in whole}  # else its line is left out
-        for slot, names in _OF_SLOT.items():
+        for slot, functions in _OF_SLOT.items():
             for plug_in in users.intersection(self._chosen.get(slot, ())):
                 own = self._found(plug_in)[1]
-                asked |= {name: plug_in for text, file in compiled if file != own for name in names.findall(text)}
+                asked |= {name: plug_in for text, file in compiled if file != own for name in functions.findall(text)}
         for plug_in in dict.fromkeys(asked.values()):
             missing = [name for name, of in asked.items() if of == plug_in and name not in given]
             if missing:
                 what = f"is no function {missing[0]}" if len(missing) == 1 else f"are no functions {', '.join(missing)}"
                 raise ShaderError(f"there {what}, which this plug-in has to have", self._found(plug_in)[1], 1)
 
-    def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> Iterator[Line]:
+    def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> list[Line]:
         slot, _, template = rest.partition(":")
         if slot.strip() not in self._chosen:
             raise ShaderError(f"there is no slot {slot.strip()!r} here", *place)
+        lines: list[Line] = []
         for plug_in in self._chosen[slot.strip()]:
             if directive != "each":
-                yield from self.lines(plug_in, place)
+                lines += self.lines(plug_in, place)
                 continue
             key = Path(plug_in).stem
             self._called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
-            yield template.strip().replace("$key", key).replace("$KEY", key.upper()), place
+            lines.append((template.strip().replace("$key", key).replace("$KEY", key.upper()), place))
+        return lines
 
     def _found(self, path: str) -> tuple[Path, str]:
         """The root of the file at `path`, and what errors call the file."""
         root = next((root for root in self._roots if (root / path).is_file()), self._roots[0])
         return root, path if root == self._roots[0] else str(root / path)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Lines of a file up to a directive that brings in others; the last part of a file has none, and its `directive` is empty."""
+
+    lines: tuple[Line, ...]
+    directive: str = ""
+    rest: str = ""
+    place: tuple[str, int] = ("", 0)
+
+
+@lru_cache(maxsize=256)
+def _parts(source: str, shown: str) -> tuple[_Part, ...]:
+    """The text `source` of the file that errors call `shown`. Kept, as programs share most of their files."""
+    parts: list[_Part] = []
+    lines: list[Line] = []
+    in_comment = False
+    for number, text in enumerate(source.splitlines(), start=1):
+        match = None if in_comment else _DIRECTIVE.match(text)
+        in_comment = _comment_open(text, in_comment)
+        if match is None or match[1] in ("defines", "blocks", "instances"):
+            lines.append((text, (shown, number)))
+        else:
+            parts.append(_Part(tuple(lines), match[1], match[2].strip(), (shown, number)))
+            lines = []
+    return *parts, _Part(tuple(lines))
 
 
 def _source(file: Path, path: str, shown: str, asked_at: tuple[str, int]) -> str:

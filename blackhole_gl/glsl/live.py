@@ -38,18 +38,58 @@ def live_words(lines: Iterable[str], switches: Mapping[str, int]) -> Words:
     functions: dict[str, set[str]] = {}
     outside: set[str] = set()
     within: set[str] | None = None
-    for line in live_lines(lines, switches):
-        head = _FUNCTION.match(line)
-        if head and within is None:
-            within = functions.setdefault(head[1], set())
-        (outside if within is None else within).update(_NAME.findall(line))
-        if within is not None and (line.startswith("}") or head and line.count("{") == line.count("}")):
+    for _, line in _compiled(lines, switches):
+        if line.function and within is None:
+            within = functions.setdefault(line.function, set())
+        (outside if within is None else within).update(line.names)
+        if within is not None and line.ends:
             within = None
     compiled = outside.union(functions, *functions.values())
     run = outside | functions.pop("main", set())
     while called := run & functions.keys():
         run = run.union(*(functions.pop(name) for name in called))
     return Words(frozenset(compiled), frozenset(run))
+
+
+def names(line: str) -> frozenset[str]:
+    """The identifiers of a line, less those in its line comment."""
+    return _read(line).names
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line as it is read.
+
+    Attributes:
+        code: its text without a line comment.
+        conditional: (word, condition) of an ``#if`` and its like.
+        define: (name, value) of a ``#define``.
+        names: its identifiers.
+        function: that whose head it is, or empty.
+        ends: a function that is open ends here.
+    """
+
+    code: str
+    conditional: tuple[str, str] | None
+    define: tuple[str, str] | None
+    names: frozenset[str]
+    function: str
+    ends: bool
+
+
+@lru_cache(maxsize=1 << 14)
+def _read(line: str) -> _Line:
+    """`line`, read once: programs share most of their lines."""
+    code = line.partition("//")[0]
+    conditional, define, head = (pattern.match(code) for pattern in (_CONDITIONAL, _DEFINE, _FUNCTION))
+    return _Line(
+        code,
+        (conditional[1], conditional[2]) if conditional else None,
+        (define[1], define[2]) if define else None,
+        frozenset(_NAME.findall(code)),
+        head[1] if head else "",
+        code.startswith("}") or head is not None and code.count("{") == code.count("}"),
+    )
 
 
 @dataclass
@@ -60,7 +100,7 @@ class _Branch:
 
 def live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[str]:
     """The lines that are compiled, as `numbered_live_lines` has them."""
-    return (text for _, text in numbered_live_lines(lines, switches))
+    return (line.code for _, line in _compiled(lines, switches))
 
 
 def numbered_live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[tuple[int, str]]:
@@ -68,18 +108,21 @@ def numbered_live_lines(lines: Iterable[str], switches: Mapping[str, int]) -> It
 
     A condition that cannot be worked out here (a macro with arguments) counts as true and so does its opposite: more lines stand then than run.
     """
+    return ((number, line.code) for number, line in _compiled(lines, switches))
+
+
+def _compiled(lines: Iterable[str], switches: Mapping[str, int]) -> Iterator[tuple[int, _Line]]:
     known: dict[str, str] = {name: str(value) for name, value in switches.items()}
     branches: list[_Branch] = []
-    for number, line in enumerate(lines):
-        text = line.partition("//")[0]
-        conditional = _CONDITIONAL.match(text)
-        if conditional:
-            _follow(branches, conditional[1], conditional[2], known)
-        elif all(branch.runs for branch in branches):
-            define = _DEFINE.match(text)
-            if define:
-                known[define[1]] = define[2]
-            yield number, text
+    runs = True
+    for number, line in enumerate(map(_read, lines)):
+        if line.conditional:
+            _follow(branches, *line.conditional, known)
+            runs = all(branch.runs for branch in branches)
+        elif runs:
+            if line.define:
+                known[line.define[0]] = line.define[1]
+            yield number, line
 
 
 def _follow(branches: list[_Branch], word: str, condition: str, known: Mapping[str, str]) -> None:
