@@ -12,6 +12,8 @@ from blackhole_gl.app.runner import PANEL
 from blackhole_gl.app.window import Window
 from blackhole_gl.scene import Scene
 
+PATIENT_DOUBLE_CLICK = 3.0  # s, ten times what people get: so long a frame may take
+
 KEYS = frozenset(int(key) for key in imgui.Key)
 
 
@@ -66,6 +68,16 @@ class Hands:
 
     def click(self, name: str) -> None:
         self.context.item_click(self.item(name))
+        self.context.yield_(2)
+
+    def double_click(self, item: str) -> None:
+        """Clicks twice, as one gesture however long the frames between the clicks take on a busy machine."""
+        settings = imgui.get_io()
+        usual = settings.mouse_single_click_delay, settings.mouse_double_click_time
+        self.context.sleep_no_skip(PATIENT_DOUBLE_CLICK, 0.1)  # or a click before would be this gesture's first
+        settings.mouse_single_click_delay, settings.mouse_double_click_time = 2.0 * PATIENT_DOUBLE_CLICK, PATIENT_DOUBLE_CLICK
+        self.context.item_double_click(item)
+        settings.mouse_single_click_delay, settings.mouse_double_click_time = usual
         self.context.yield_(2)
 
     def fill(self, name: str, value: float | str) -> None:

@@ -207,7 +207,7 @@ def panel_edits_and_resets(hands: Hands) -> None:
     assert hands.scene.camera.distance == 33.25
     hands.settle()
     assert hands.scene.camera.distance == 33.25, "the camera stays where it was typed to"
-    hands.context.item_double_click(hands.item("Distance##name camera.distance"))
+    hands.double_click(hands.item("Distance##name camera.distance"))
     assert hands.scene.camera.distance == 20.0
     hands.click("far##infinite camera.distance")
     assert hands.scene.camera.distance == float("inf")
@@ -220,23 +220,19 @@ def double_click_on_a_widget_brings_the_presets_value(hands: Hands) -> None:
     preset_switch.pick(hands.state, "physics", "thin_disk")
     in_force = hands.scene
     hands.context.item_input_value(hands.item("##disk.outer_radius"), 7.0)
-    hands.context.item_double_click(hands.item("##disk.outer_radius"))
+    hands.double_click(hands.item("##disk.outer_radius"))
     assert hands.scene.disk.outer_radius == 10.0
     hands.choose("##disk.temperature_law", "tapered##tapered", table="values of disk/")
     assert hands.scene.disk.temperature_law == "tapered"
-    hands.context.item_double_click(f"//{PANEL}/values of disk/##disk.temperature_law")
-    hands.context.yield_(2)
+    hands.double_click(f"//{PANEL}/values of disk/##disk.temperature_law")
     assert hands.scene.disk.temperature_law == "shakura_sunyaev" != fields()["disk.temperature_law"].default
     assert not imgui.internal.find_window_by_name("##Combo_00").active, "and the list is closed"
     hands.click("##disk.beaming")
-    hands.context.sleep_no_skip(0.5, 1.0 / 60.0)  # or the next click would be this one's second
-    hands.context.item_double_click(hands.item("##disk.beaming"))
-    hands.context.yield_(2)
+    hands.double_click(hands.item("##disk.beaming"))
     assert hands.scene == in_force
     hands.fill("##filter", "orders")
     hands.fill("##rays.orders", 1)
-    hands.context.item_double_click(hands.item("##rays.orders"))
-    hands.context.yield_(2)
+    hands.double_click(hands.item("##rays.orders"))
     assert hands.scene == in_force
 
 
