@@ -38,7 +38,7 @@ def main() -> None:
     renderer = Renderer(create_headless())
     for info in pictured():
         path = folder / f"{info.name}.jpg"
-        Image.fromarray(draw(renderer, info.name)).save(path, quality=88, optimize=True)
+        Image.fromarray(draw(renderer, info.name)).save(path, quality=94, optimize=True)
         print(f"{path.name}  {path.stat().st_size} bytes", flush=True)
 
 
