@@ -229,7 +229,8 @@ def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, directio
 def measurements() -> tuple[Measured, ...]:
     """The chart's tables, of holes and of fields; empty where there are none."""
     paths = (assets_dir() / name for name in ("measurements.csv", "measurements_fields.csv"))
-    return tuple(row for path in paths if path.is_file() for row in read(path) if row.model in catalogue.keys("ray_model"))
+    models = catalogue.plug_ins("ray_model")
+    return tuple(row for path in paths if path.is_file() for row in read(path) if row.model in models)
 
 
 def forget_choices() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
@@ -92,11 +92,16 @@ def read(path: Path) -> tuple[Measured, ...]:
     """
     with open(path, newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(line for line in file if not line.startswith("#"))
-    needed = header.index("direction_99"), header.index("cost_flat_ratio")
-    texts = dict(zip(header, zip(*(row for row in rows if all(row[k] for k in needed)))))
+    error, cost = header.index("direction_99"), header.index("cost_flat_ratio")
+    texts = dict(zip(header, zip(*(row for row in rows if row[error] and row[cost]))))
     number = len(next(iter(texts.values()), ()))
-    return tuple(map(Measured, *(map(_READ[str(item.type)], texts.get(item.name, ("",) * number)) for item in fields(Measured))))
+    return tuple(map(Measured, *(_column(str(item.type), texts.get(item.name, ("",) * number)) for item in fields(Measured))))
 
 
-_READ: Mapping[str, Callable[[str], Any]] = {"str": str, "float": lambda text: float(text or "nan"), "int": lambda text: int(text or "0")}
-"""By the names of the columns' types: reading by columns takes a third of the time that rows take."""
+def _column(kind: str, texts: Sequence[str]) -> Iterable[Any]:
+    read, absent = _READ[kind]
+    return map(read, texts if all(texts) else (text or absent for text in texts))
+
+
+_READ: Mapping[str, tuple[Callable[[str], Any], str]] = {"str": (str, ""), "float": (float, "nan"), "int": (int, "0")}
+"""By the names of the columns' types, what reads them and what stands where they are empty: by columns that takes a third of the time that rows take."""
