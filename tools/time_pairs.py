@@ -88,11 +88,11 @@ def things(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Fra
 
 
 def orbit(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
-    """Frames of a running clock."""
+    """Frames of a running clock, as the window draws them."""
     other, moves, rests = Renderer(renderer.ctx), ten_spheres(scene, orbiting=True), ten_spheres(scene, orbiting=False)
 
     def frame(number: int, drawn_by: Renderer, seen: Scene) -> None:
-        drawn_by.render(seen, 4.0 * FRAME_S * (number + 3), size)
+        drawn_by.render(seen, 4.0 * FRAME_S * (number + 3), size, glow_may_last=True)
 
     return lambda number: frame(number, renderer, moves), lambda number: frame(number, other, rests)
 

@@ -118,7 +118,8 @@ class Renderer:
             measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
                 further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays.
-            glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``.
+            glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``. Where a thing
+                has moved in it, pixels at edges have four rays.
             shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
 
         Raises:
@@ -131,7 +132,7 @@ class Renderer:
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
-        radiance = self._shaded_with_edges(inputs, moving=progressive)
+        radiance = self._shaded_with_edges(inputs, moving=progressive or glow_may_last and traced)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)

@@ -55,6 +55,24 @@ vec3 path_velocity(Path path) {
     return vec3(rotate(rate.xy, cos_sin(path.twist.x)), rate.z);
 }
 
+// Distance of a homogeneous place from the hole less r, but that it is finite at infinity too.
+float beyond(vec4 place, float r) {
+    return length(place.xyz) - r * place.w;
+}
+
+// The part 0…1 of the curve at which it comes nearer to the hole than r, by false position; 1 where it begins nearer or ends farther away.
+float part_outside(Curve curve, float r) {
+    float low = 0.0, high = 1.0, above = beyond(curve.a.place, r), below = beyond(curve.b.place, r);
+    if (above <= 0.0 || below >= 0.0) return 1.0;
+    float t = 1.0;
+    for (int i = 0; i < 6; ++i) {
+        t = mix(low, high, above / (above - below));
+        float here = beyond(curve_path(curve, t).place, r);
+        if (here > 0.0) { low = t; above = here; below *= 0.7; } else { high = t; below = here; above *= 0.7; }
+    }
+    return t;
+}
+
 float beside(vec3 x, vec3 way) {
     vec3 off = x - clamp(dot(x, way) / max(dot(way, way), 1e-30), 0.0, 1.0) * way;
     return dot(off, off);

@@ -66,62 +66,6 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #endif
 
 #if MEETINGS
-// The way from `a` to `b`, a step of h. A long one near the hole is a cubic in halves only.
-Way way_of(Orbit orbit, State a, State b, float h) {
-    return Way(ray_path(orbit, a), ray_path(orbit, march_step(orbit, a, 0.5 * h)), ray_path(orbit, b), h);
-}
-
-// One meeting within the step from `a` along `way`. As with crossings the place on the curve is stepped to again.
-void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hits) {
-    State there;
-    float t = meeting_root(way, found), slip = 0.0;
-    for (int i = 0; i < 2; ++i) {  // the first time from where the curve has it, which a long step leaves by more than the march
-        t = clamp(t + slip / way.h, 0.0, 1.0);
-        there = march_step(orbit, a, way.h * t);
-        Path path = ray_path(orbit, there);
-        vec3 velocity = path_velocity(path);
-        float speed = length(velocity);
-        slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
-    }
-#ifdef RAY_FIRST_ORDER
-    there = state_step(there, slip, ray_rhs(orbit, there));
-#else
-    there = state_drift(there, slip);
-#endif
-    add_meeting(hits, found.kind, found.index, found.enters, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), is_opaque(found.kind));
-}
-
-// All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
-bool meet_in_step(Orbit orbit, State a, State b, float h, float end, bool crossed, Found found, inout Hits hits) {
-    Way way = way_of(orbit, a, b, h);
-    float crossing = 2.0;
-#if ORDERS > 0
-    if (crossed) crossing = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
-#endif
-#if MEETINGS > 1
-    for (int i = 0; i < 8; ++i) {
-#endif
-        bool none = found.kind == MEETING_NONE;
-#if ORDERS > 0
-        if (crossing <= 1.0 && (none || crossing < found.at)) {
-            find_crossing(orbit, a, b, h, end, hits);
-            crossing = 2.0;
-        }
-#endif
-        if (none) return false;
-        add_meeting_found(orbit, a, way, found, hits);
-        if (is_opaque(found.kind)) return true;
-#if MEETINGS > 1
-        Path path = way_path(way, found.at);
-        float beyond = found.at + 2.0 * overstep(found.size, path_point(path)) / length(path_velocity(path));
-        found = next_meeting(way, beyond, min(end, 1.0));
-    }
-#endif
-    return false;
-}
-#endif
-
-#if MEETINGS
 const int MOST_STEPS = 32767;
 #endif
 
@@ -227,6 +171,69 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #endif
 }
 
+#if MEETINGS
+// The way of the last step, of one that falls in as far as the horizon: beyond it, where it turns without end, it is no cubic. A long step near the hole is one in
+// halves only.
+Way way_of(Orbit orbit, March m) {
+    Path a = ray_path(orbit, m.s), b = ray_path(orbit, m.next);
+    float h = m.h;
+    if (m.fate == CAPTURED) {
+        h *= part_outside(Curve(a, b, h), crossing_r_min * min(hole_horizon_size, 1.0));
+        b = ray_path(orbit, march_step(orbit, m.s, h));
+    }
+    return Way(a, ray_path(orbit, march_step(orbit, m.s, 0.5 * h)), b, h);
+}
+
+// One meeting within the step from `a` along `way`. As with crossings the place on the curve is stepped to again.
+void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hits) {
+    State there;
+    float t = meeting_root(way, found), slip = 0.0;
+    for (int i = 0; i < 2; ++i) {  // the first time from where the curve has it, which a long step leaves by more than the march
+        t = clamp(t + slip / way.h, 0.0, 1.0);
+        there = march_step(orbit, a, way.h * t);
+        Path path = ray_path(orbit, there);
+        vec3 velocity = path_velocity(path);
+        float speed = length(velocity);
+        slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
+    }
+#ifdef RAY_FIRST_ORDER
+    there = state_step(there, slip, ray_rhs(orbit, there));
+#else
+    there = state_drift(there, slip);
+#endif
+    add_meeting(hits, found.kind, found.index, found.enters, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), is_opaque(found.kind));
+}
+
+// All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
+bool meet_in_step(Orbit orbit, March m, float end, Found found, inout Hits hits) {
+    Way way = way_of(orbit, m);
+    float crossing = 1e30;  // the part of the way
+#if ORDERS > 0
+    if (m.crossed) crossing = hermite_root(ray_height(m.s), m.h * ray_height_rate(m.s), ray_height(m.next), m.h * ray_height_rate(m.next)) * m.h / way.h;
+#endif
+#if MEETINGS > 1
+    for (int i = 0; i < 8; ++i) {
+#endif
+        bool none = found.kind == MEETING_NONE;
+#if ORDERS > 0
+        if (crossing < 1e29 && (none || crossing < found.at)) {
+            find_crossing(orbit, m.s, m.next, m.h, end, hits);
+            crossing = 1e30;
+        }
+#endif
+        if (none) return false;
+        add_meeting_found(orbit, m.s, way, found, hits);
+        if (is_opaque(found.kind)) return true;
+#if MEETINGS > 1
+        Path path = way_path(way, found.at);
+        float beyond = found.at + 2.0 * overstep(found.size, path_point(path)) / length(path_velocity(path));
+        found = next_meeting(way, beyond, min(end, 1.0));
+    }
+#endif
+    return false;
+}
+#endif
+
 #if !RAYS_EARLY_END
 // The steps of a ray that is marched on for as long a way as all steps would be at first, whatever has become of it; nobody sees what it meets there. What it
 // finds is part of a comparison that is never true, or else the compiler would leave the march out.
@@ -239,7 +246,7 @@ int steps_gone_on(Orbit orbit, March m) {
 #if RAYS_BOUNDS
         near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
 #endif
-        if (near) found += next_meeting(Curve(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h), 0.0, 1.0).at;
+        if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0).at;
 #endif
     }
     return m.steps + (abs(ray_height(m.next)) + found < -plan_step_length ? 1 : 0);
@@ -269,10 +276,10 @@ Hits trace_ray(RayStart start) {
             march_on(orbit, ORDERS > 0, m);
             end = march_end(orbit, m);
             found = NOTHING_FOUND;
-            if (m.near) found = next_meeting(way_of(orbit, m.s, m.next, m.h), 0.0, min(end, 1.0));
+            if (m.near) found = next_meeting(way_of(orbit, m), 0.0, min(end, 1.0));
             if (m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps) break;
         }
-        if (!met) met = meet_in_step(orbit, m.s, m.next, m.h, end, m.crossed, found, hits);
+        if (!met) met = meet_in_step(orbit, m, end, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
     place = path_place(ray_path(orbit, m.next));

@@ -22,11 +22,6 @@ Spot spot_of(Path path) {
     return Spot(path_point(path), path_velocity(path));
 }
 
-// Distance from the hole less r, but that it is finite at infinity too.
-float beyond(vec4 place, float r) {
-    return length(place.xyz) - r * place.w;
-}
-
 vec3 across(vec3 d, vec3 along) {
     return d - dot(d, along) * along;
 }

@@ -46,7 +46,7 @@ def _ten(**values: object) -> Scene:
     return _scene(**things, **values)
 
 
-def _random_view(rng: np.random.Generator) -> Scene:
+def _random_view(rng: np.random.Generator, steps: dict[str, object]) -> Scene:
     """Ten spheres from half a pixel to the hole's size, anywhere from beside the horizon to 14 r_s, seen from anywhere."""
     things = {}
     for k in range(10):
@@ -59,7 +59,7 @@ def _random_view(rng: np.random.Generator) -> Scene:
         "camera.distance": float(np.exp(rng.uniform(np.log(3.0), np.log(40.0)))),
         "camera.yaw_deg": rng.uniform(-20.0, 20.0),
     }
-    return _scene(**things, **camera, **FINE)
+    return _scene(**things, **camera, **steps)
 
 
 def _traced(renderer: Renderer, scene: Scene, *, progressive: bool, time: float = 0.0) -> HitArrays:
@@ -77,18 +77,22 @@ def _same(found: HitArrays, exact: HitArrays) -> bool:
     return all(a is None and b is None or np.array_equal(a, b) for a, b in pairs)
 
 
-def test_no_thing_is_lost_or_displaced_under_a_moving_camera(renderer: Renderer) -> None:
-    """In which thing each pixel shows, refined maps of random views are the exact ones: a pixel that shows any has a ray of its own."""
+@pytest.mark.parametrize(("steps", "most"), [(FINE, 0), ({}, 20)])
+def test_no_thing_is_lost_or_displaced_under_a_moving_camera(renderer: Renderer, steps: dict, most: int) -> None:
+    """In which thing each pixel shows, refined maps of random views are the exact ones: a pixel that shows any has a ray of its own.
+
+    At the plan's own steps one sphere beside the horizon is displaced in the exact map: by 17 pixels, and by 45 when the step was a curve beyond the horizon.
+    """
     rng = np.random.default_rng(3)
     shown = wrong = interpolated = 0
     for _ in range(VIEWS):
-        scene = _random_view(rng)
+        scene = _random_view(rng, steps)
         exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
         interpolated += int(np.count_nonzero(~renderer.hit_map.own_rays())) if not renderer.hit_map.is_sharp else 0
         shown += np.count_nonzero(exact.met[..., 0, 0] >= 0)
         wrong += np.count_nonzero(np.any(found.met != exact.met, axis=(-2, -1)))
     assert shown > 30 * VIEWS
-    assert wrong == 0
+    assert wrong <= most
     assert interpolated > 0.4 * VIEWS * SIZE[0] * SIZE[1], "at 1280×720 most pixels are: squares are as large whatever the picture's size"
 
 
@@ -150,6 +154,18 @@ def test_the_picture_is_that_of_a_fresh_map(renderer: Renderer) -> None:
         fresh.render(scene, time, SIZE)
         np.testing.assert_array_equal(renderer.radiance(), fresh.radiance())
     fresh.release()
+
+
+def test_pixels_at_edges_have_fewer_rays_while_a_thing_moves(renderer: Renderer) -> None:
+    """In frames that the next one replaces; a picture that stays, and one in which time runs and nothing moves, have all of them."""
+    moves = _ten(**{"rays.edges": 4})
+    rests = moves.with_values({"things.s0.path": "fixed", "things.s0.x": 7.0})
+    renderer.render(moves, 0.0, SIZE)
+    rays = []
+    for scene, time, passes in ((moves, 1.0, True), (moves, 2.0, True), (moves, 2.0, False), (moves, 3.0, False), (rests, 3.0, False), (rests, 4.0, True)):
+        renderer.render(scene, time, SIZE, glow_may_last=passes)
+        rays.append(renderer.edges.rays_a_pixel)
+    assert rays == [4, 4, 16, 16, 16, 16]
 
 
 MOON = _sphere("moon", 0.5)
