@@ -12,6 +12,9 @@ from .squares import Squares
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
 _IN_A_ROW, _ROWS = 128, 4
 
+# Pixels along each axis that software renderers shade together, whichever of them are asked for.
+_TOGETHER = 4
+
 
 @dataclass(frozen=True, eq=False)
 class EdgeBlocks:
@@ -19,7 +22,7 @@ class EdgeBlocks:
 
     Attributes:
         pixels: column and row of each, from the bottom left, int (N, 2).
-        numbers: of each pixel's block, row by row, int (N,).
+        numbers: of each pixel's block, two by two and those row by row, so that blocks with numbers side by side lie together both ways; int (N,).
         rows: of blocks that the map has room for; some are nobody's.
     """
 
@@ -45,9 +48,10 @@ class EdgeBlocks:
     @property
     def pixel_of_block(self) -> np.ndarray:
         """Each block's pixel, row by row, float32 (blocks, 2); 0 for those that are nobody's."""
-        found = np.zeros((_IN_A_ROW * self.rows, 2), np.float32)
-        found[self.numbers] = self.pixels
-        return found
+        found = np.zeros((self.rows, _IN_A_ROW, 2), np.float32)
+        columns, rows = self.places.T
+        found[rows, columns] = self.pixels
+        return found.reshape(-1, 2)
 
     def after(self, pixels: Int[np.ndarray, "pixels 2"], changed: Squares, size: tuple[int, int]) -> tuple[EdgeBlocks, Int[np.ndarray, "fresh 2"]] | None:
         """The blocks once `changed` of a picture of `size` are other than before and `pixels` are at edges, and the places of those whose rays are still to be
@@ -65,5 +69,13 @@ class EdgeBlocks:
         return EdgeBlocks(pixels, numbers, self.rows), _places(numbers[fresh])
 
 
+def squares_of(places: Int[np.ndarray, "blocks 2"], side: int, size: tuple[int, int]) -> Squares:
+    """The squares of a map of `size` that hold the blocks of `side`² rays at `places`: of as many as are shaded together, others' too."""
+    blocks = max(_TOGETHER // side, 1)
+    return Squares.of(np.unique(places // blocks, axis=0), blocks * side, size)
+
+
 def _places(numbers: np.ndarray) -> np.ndarray:
-    return np.stack([numbers % _IN_A_ROW, numbers // _IN_A_ROW], axis=-1)
+    fours, one = np.divmod(numbers, 4)
+    rows, columns = np.divmod(fours, _IN_A_ROW // 2)
+    return np.stack([2 * columns + one % 2, 2 * rows + one // 2], axis=-1)

@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from .classes import Where, drawn
-from .edge_blocks import EdgeBlocks
+from .edge_blocks import EdgeBlocks, squares_of
 from .edge_pixels import EdgePixels
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
@@ -116,7 +116,7 @@ class EdgeRays:
         self._places.write(pixels, self._held.places)
         self._blocks = self._blocks_of(self._held, side)
         size = self._blocks.size
-        self._map.trace_blocks(inputs, self._blocks, None if fresh is None else Squares.of(fresh, side, size))
+        self._map.trace_blocks(inputs, self._blocks, None if fresh is None else squares_of(fresh, side, size))
 
     def _blocks_of(self, held: EdgeBlocks, side: int) -> RayBlocks:
         """The blocks of rays, and a target for what they show."""

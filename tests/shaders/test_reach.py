@@ -10,7 +10,7 @@ import pytest
 
 from blackhole_gl.plan import REACH_STEP, plan
 from blackhole_gl.render import reach
-from blackhole_gl.render.edge_blocks import EdgeBlocks
+from blackhole_gl.render.edge_blocks import EdgeBlocks, squares_of
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.hit_texels import HitArrays
 from blackhole_gl.render.inputs import FrameInputs
@@ -188,9 +188,21 @@ def test_blocks_at_edges_that_stand_keep_their_places_and_freed_ones_are_used() 
     assert after.numbers[0] == before.numbers[0] and after.numbers[3] == before.numbers[2], "outside the squares, and there before"
     assert len(set(after.numbers)) == 4 and {tuple(place) for place in fresh} == {tuple(place) for place in after.places[1:3]}
     assert before.numbers[1] in after.numbers, "its pixel is at no edge now"
-    np.testing.assert_array_equal(after.pixel_of_block[after.numbers], after.pixels)
+    columns, rows = after.places.T
+    np.testing.assert_array_equal(after.pixel_of_block[rows * after.size[0] + columns], after.pixels)
     full = EdgeBlocks.of(np.stack(np.divmod(np.arange(512), 64)[::-1], axis=-1))
     assert full.after(np.stack(np.divmod(np.arange(600), 64)[::-1], axis=-1), changed, size) is None
+
+
+def test_small_blocks_are_drawn_four_at_a_time_where_they_lie_together() -> None:
+    """A software renderer shades 4×4 pixels whichever of them are asked for: blocks of 2×2 rays, each drawn alone, took nearly twice the time."""
+    blocks = EdgeBlocks.of(np.stack(np.divmod(np.arange(300), 64)[::-1], axis=-1))
+    assert len({tuple(place) for place in blocks.places}) == 300 and np.all(blocks.places < blocks.size)
+    fresh = blocks.places[40:80]
+    drawn = squares_of(fresh, 2, (2 * blocks.size[0], 2 * blocks.size[1]))
+    assert drawn.side == 4 and len(drawn) == 10
+    assert len(squares_of(fresh, 4, (4 * blocks.size[0], 4 * blocks.size[1]))) == 40
+    assert len(squares_of(fresh[:0], 2, (256, 8))) == 0
 
 
 def test_many_balls_are_gathered_into_few_that_hold_them() -> None:
