@@ -205,8 +205,7 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
 }
 
 // All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
-bool meet_in_step(Orbit orbit, March m, float end, Found found, inout Hits hits) {
-    Way way = way_of(orbit, m);
+bool meet_in_step(Orbit orbit, March m, Way way, float end, Found found, inout Hits hits) {
     float crossing = 1e30;  // the part of the way
 #if ORDERS > 0
     if (m.crossed) crossing = hermite_root(ray_height(m.s), m.h * ray_height_rate(m.s), ray_height(m.next), m.h * ray_height_rate(m.next)) * m.h / way.h;
@@ -272,14 +271,16 @@ Hits trace_ray(RayStart start) {
     float end;
     do {
         Found found;
+        Way way;
         for (int i = 0; i < MOST_STEPS; ++i) {
             march_on(orbit, ORDERS > 0, m);
             end = march_end(orbit, m);
             found = NOTHING_FOUND;
-            if (m.near) found = next_meeting(way_of(orbit, m), 0.0, min(end, 1.0));
+            way = way_of(orbit, m);
+            if (m.near) found = next_meeting(way, 0.0, min(end, 1.0));
             if (m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps) break;
         }
-        if (!met) met = meet_in_step(orbit, m, end, found, hits);
+        if (!met) met = meet_in_step(orbit, m, way, end, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
     place = path_place(ray_path(orbit, m.next));
