@@ -62,6 +62,8 @@ SHOTS = (
     Shot("explosion", ("explosion",)),
     Shot("objects_roessler", ("objects_roessler",)),
     Shot("objects_undistorted", ("objects_undistorted",)),
+    Shot("orbiting_star", ("orbiting_star",)),
+    Shot("neutron_star", ("neutron_star",)),
 )
 
 
