@@ -27,6 +27,8 @@ EVALUATIONS_PER_STEP = ROWS * (ROWS + 1) - ROWS + 1
 _SUBSTEPS = 2.0 * np.arange(1, ROWS + 1)
 _SAFETY = 0.85
 _SHRINK, _GROW = 0.1, 4.0
+_LOCATED = 1e-9  # of a step, a correction of a zero: convergence is quadratic, and the next one is below rounding
+_MOST_TRIALS = 40  # for a zero; four to six do, but for those found by halves
 
 Array = np.ndarray
 
@@ -145,30 +147,41 @@ def locate_zero(
 ) -> tuple[Float[Array, " N"], Float[Array, "rows N"]]:
     """Where value(state), (N,), vanishes inside one step: (parameter (N,), state (rows, N)) there.
 
-    Newton's method on the parameter; each trial is a single step from `before`, shorter than the accepted one and therefore at least as
+    Newton's method on the parameter, by halves where it leaves what is known to hold the zero; each trial is a single step from `before`, shorter than the accepted one and therefore at least as
     accurate, so that the event carries no interpolation error. The rate need not be exact: it decides how fast the zero is found, not where.
     """
     rate = rate_along(rhs, value)
-    parameter = _hermite_zero(value(before), value(after), step * rate(before, step), step * rate(after, step)) * step
+    start_value, start_rate = value(before), rate(before, step)
+    parameter = _hermite_zero(start_value, value(after), step * start_rate, step * rate(after, step)) * step
+    sign = _sign_before_zero(start_value, start_rate)
+    low, high = np.zeros_like(parameter), np.array(step, dtype=float)
     located = np.zeros(parameter.shape, dtype=bool)
-    for _ in range(8):
+    for _ in range(_MOST_TRIALS):
         state, _ = extrapolated_step(rhs, before, parameter)
-        trial = np.clip(parameter - value(state) / rate(state, step), 0.0, step)
+        here = value(state)
+        low, high = np.where(np.sign(here) == sign, parameter, low), np.where(np.sign(here) == -sign, parameter, high)
+        trial = parameter - here / rate(state, step)
+        # Where the function levels off on both sides of its zero, as an angle does beside the origin, Newton's method runs away.
+        within = (trial >= low - _LOCATED * step) & (trial <= high + _LOCATED * step)
+        trial = np.clip(np.where(within, trial, 0.5 * (low + high)), 0.0, step)
         moved = np.abs(trial - parameter)
         # What is located stays: a ray's result does not depend on the rays beside it.
         parameter = np.where(located, parameter, trial)
-        # Convergence is quadratic: after a correction of 1e-9 of the step the next one is below rounding.
-        located |= moved <= 1e-9 * step
+        located |= moved <= _LOCATED * step
         if located.all():
             break
     return parameter, extrapolated_step(rhs, before, parameter)[0]
 
 
+def _sign_before_zero(value: Array, rate: Array) -> Array:
+    """The sign that a function has before its zero in a step; where it begins with 0 (the camera's own place, or infinity) that of its rate."""
+    return np.where(value != 0.0, np.sign(value), np.sign(rate))
+
+
 def _hermite_zero(y0: Array, y1: Array, d0: Array, d1: Array) -> Array:
     """A zero in [0, 1] of the cubic with values y0, y1 and slopes d0, d1 at the ends, by bisection: a first guess."""
     low, high = np.zeros_like(y0), np.ones_like(y0)
-    # With y0 = 0 (the camera's own place, or infinity) the sign before the zero is that of the slope.
-    sign = np.where(y0 != 0.0, np.sign(y0), np.sign(d0))
+    sign = _sign_before_zero(y0, d0)
     for _ in range(20):
         t = 0.5 * (low + high)
         value = (1 + 2 * t) * (1 - t) ** 2 * y0 + t * (1 - t) ** 2 * d0 + t * t * (3 - 2 * t) * y1 + t * t * (t - 1) * d1
