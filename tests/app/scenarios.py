@@ -708,9 +708,14 @@ def sides_hide_nothing(hands: Hands) -> None:
     """The colour scale has a place of its own, and the window that chooses is whole where large letters leave it little room."""
     hands.press(Key.v)
     hands.press(Key.d)
+
+    def shown() -> list:
+        found = [imgui.internal.find_window_by_name(name) for name in ("##view scale", "##side 1")]
+        return found if all(window is not None and window.active for window in found) else []
+
+    wait(hands, lambda: bool(shown()), seconds=20.0)  # the scale comes with the picture that it is of, whose programs have to be made
     hands.context.yield_(4)
-    scale, side = (imgui.internal.find_window_by_name(name) for name in ("##view scale", "##side 1"))
-    assert scale.active and side.active
+    scale, side = shown()
     assert side.pos.y + side.size.y <= scale.pos.y
     hands.press(Key.d)
     was, hands.window.kept = hands.window.kept, replace(hands.window.kept, text_size=1.3)

@@ -61,10 +61,14 @@ def test_files_pictures_and_the_clipboard_carry_instances(state: WindowState, tm
     scene_files.save_picture(state, np.zeros((2, 3, 3), np.uint8), None, tmp_path)
     assert 'image = "painted.png"' in Path(state.file).read_text(encoding="utf-8")
     (saved,) = tmp_path.glob("blackhole-*.png")
-    for again in (lambda: scene_files.load(state), lambda: scene_files.take(state, text)):
-        state.show(Scene())
-        again()
-        assert state.scene == scene
+    state.show(Scene())
+    scene_files.load(state)
+    assert state.scene == scene
+    state.show(Scene())
+    scene_files.take(state, text)
+    assert state.scene == scene.with_values({"things.moon.image": ""}) and "painted.png" in state.notice.text, "text from anywhere opens no file"
+    scene_files.take(state, text)
+    assert state.scene == scene, "and does when it is pasted again"
     assert presets.from_png(saved) == scene
 
 

@@ -12,6 +12,7 @@ from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.render.reach import ALONE
+from blackhole_gl.render.uniforms import stars_a_pixel
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
 
@@ -94,6 +95,7 @@ def _readers(made: Plan) -> Iterator[tuple[str, int]]:
         yield from (("shade_matter.frag", refined) for refined in (0, 1))
     if made.scene.sky.enabled:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
+    if stars_a_pixel(made.scene):
         yield from (("star_layer.frag", refined) for refined in (0, 1))
 
 
@@ -120,8 +122,9 @@ def _of_instances() -> Iterator[Wanted]:
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1})):
                 yield path, f"{kind} by {model}", made, switches
-            yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
-            yield "reach_cells.frag", f"{kind} by {model}", made, {}
+            if made.integrator is not None:  # rays in closed form are not looked for coarsely
+                yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
+                yield "reach_cells.frag", f"{kind} by {model}", made, {}
 
 
 def _of_views() -> Iterator[Wanted]:
