@@ -52,13 +52,13 @@ def _renderer() -> None:
 
 
 def _draw(scene: Scene, size: tuple[int, int]) -> None:
-    """Draws `scene` in every way a window does: rays interpolated or not, a sky that is kept or not, stars drawn apart."""
+    """Draws `scene` in every way a window does: rays interpolated or not, a sky that is kept or not, stars drawn apart, things that have moved."""
     renderer = _shared()
     shown = 2 * size[0], 2 * size[1]
     enlarged = Target.of(renderer.ctx, [renderer.ctx.texture(shown, 4)])
     for _ in range(2):  # Mesa stores one variant of a program for each time that it is compiled, and some are drawn with in two
-        for progressive in (True, False, False):
-            renderer.render(scene, 0.0, size, measure=True, progressive=progressive, shown=shown)
+        for progressive, time in ((True, 0.0), (False, 0.0), (False, 0.0), (False, 1.0)):
+            renderer.render(scene, time, size, measure=True, progressive=progressive, glow_may_last=time > 0.0, shown=shown)
             renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         renderer.programs.release()
         renderer.hit_map.forget()

@@ -147,8 +147,9 @@ def locate_zero(
 ) -> tuple[Float[Array, " N"], Float[Array, "rows N"]]:
     """Where value(state), (N,), vanishes inside one step: (parameter (N,), state (rows, N)) there.
 
-    Newton's method on the parameter, by halves where it leaves what is known to hold the zero; each trial is a single step from `before`, shorter than the accepted one and therefore at least as
-    accurate, so that the event carries no interpolation error. The rate need not be exact: it decides how fast the zero is found, not where.
+    Newton's method on the parameter, by halves where it leaves what is known to hold the zero; each trial is a single step from `before`,
+    shorter than the accepted one and therefore at least as accurate, so that the event carries no interpolation error. The rate need not be
+    exact: it decides how fast the zero is found, not where.
     """
     rate = rate_along(rhs, value)
     start_value, start_rate = value(before), rate(before, step)

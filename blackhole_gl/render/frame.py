@@ -13,7 +13,7 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, instance_numbers, pixel_values, supersampling, views
+from . import diagnostics, instance_numbers, instances, pixel_values, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -132,7 +132,8 @@ class Renderer:
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
-        radiance = self._shaded_with_edges(inputs, moving=progressive or glow_may_last and traced)
+        thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
+        radiance = self._shaded_with_edges(inputs, moving=progressive or thing_moved)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)

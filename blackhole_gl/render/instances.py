@@ -108,7 +108,7 @@ class InstanceTables:
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
-        if self._made is None or self._made[0] is not plan or self._made[1] != time and _anything_moves(plan):
+        if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan):
             found = meshes.of(plan.scene)
             files = {**pictures.layers(plan.scene), **(found.roots if found else {})}
             rows = [_rows(kind, plan, time, files) for kind in used(plan.scene)]
@@ -139,7 +139,7 @@ class InstanceTables:
         return texture
 
 
-def _anything_moves(plan: Plan) -> bool:
+def anything_moves(plan: Plan) -> bool:
     """Whether any table is another at another time, be it that a sphere turns."""
     kinds = [(met.instances(plan.scene, slot), kinds) for slot, kinds in _catalogues()]
     moving = (instance for instances, known in kinds for instance in instances if known[instance.kind].traits.moves)

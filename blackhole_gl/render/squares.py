@@ -60,7 +60,13 @@ class SquareBuffer:
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
-        self._buffer = ctx.buffer(reserve=_POINT, dynamic=True)
+        self._made: moderngl.Buffer | None = None
+
+    @property
+    def _buffer(self) -> moderngl.Buffer:
+        if self._made is None:
+            self._made = self._ctx.buffer(reserve=_POINT, dynamic=True)
+        return self._made
 
     def array(self, program: moderngl.Program) -> moderngl.VertexArray:
         """What `draw` draws `program` with; of a program that takes no squares, nothing that can be."""
@@ -79,5 +85,7 @@ class SquareBuffer:
         self._ctx.disable(moderngl.PROGRAM_POINT_SIZE)
 
     def release(self) -> None:
-        """Gives the GL object back."""
-        self._buffer.release()
+        """Gives the GL object back; what `array` made is of no use then. There is a new one for what is drawn after that."""
+        if self._made is not None:
+            self._made.release()
+            self._made = None

@@ -5,7 +5,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import blackhole_gl
+from blackhole_gl.app.warm_up import WarmUp
+from blackhole_gl.scene import presets
 
 _SCRIPT = """
 import multiprocessing, sys, time
@@ -32,3 +36,11 @@ def test_closing_in_the_middle_of_its_work_ends_it_quietly(tmp_path):
     for seconds in ("0", "0.5"):
         done = subprocess.run([sys.executable, str(script), seconds], capture_output=True, text=True, timeout=60, env=environment)
         assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("name", ["kerr", "orbiting_star"])
+def test_it_draws_all_that_a_window_does(name: str) -> None:
+    """Where it fails the window goes on without it, compiles by itself and stands still meanwhile."""
+    warm_up = WarmUp()
+    assert warm_up.submit(presets.load([name]), (64, 36)).exception(timeout=100.0) is None
+    warm_up.close()
