@@ -57,7 +57,7 @@ def _draw(scene: Scene, size: tuple[int, int]) -> None:
     shown = 2 * size[0], 2 * size[1]
     enlarged = Target.of(renderer.ctx, [renderer.ctx.texture(shown, 4)])
     for _ in range(2):  # Mesa stores one variant of a program for each time that it is compiled, and some are drawn with in two
-        for progressive, time in ((True, 0.0), (False, 0.0), (False, 0.0), (False, 1.0)):
+        for progressive, time in ((True, 0.0), (True, 1.0), (False, 1.0), (False, 1.0), (False, 2.0)):
             renderer.render(scene, time, size, measure=True, progressive=progressive, glow_may_last=time > 0.0, shown=shown)
             renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         renderer.programs.release()

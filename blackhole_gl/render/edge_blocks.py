@@ -33,7 +33,7 @@ class EdgeBlocks:
     @classmethod
     def of(cls, pixels: Int[np.ndarray, "pixels 2"]) -> EdgeBlocks:
         """Blocks for `pixels`, one after the other."""
-        return cls(pixels, np.arange(len(pixels)), -(-len(pixels) // (_IN_A_ROW * _ROWS)) * _ROWS)
+        return cls(pixels, np.arange(len(pixels)), _rows_for(len(pixels)))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -67,6 +67,14 @@ class EdgeBlocks:
             return None
         numbers[fresh] = free[: np.count_nonzero(fresh)]
         return EdgeBlocks(pixels, numbers, self.rows), _places(numbers[fresh])
+
+
+def _rows_for(blocks: int) -> int:
+    """Rows of a map with room for `blocks`: never a power of two, for which llvmpipe would finish each program that draws into the map or reads it anew."""
+    rows = max(-(-blocks // (_IN_A_ROW * _ROWS)), 1) * _ROWS
+    while rows & (rows - 1) == 0:
+        rows += _ROWS
+    return rows
 
 
 def squares_of(places: Int[np.ndarray, "blocks 2"], side: int, size: tuple[int, int]) -> Squares:

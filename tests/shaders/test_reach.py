@@ -190,8 +190,16 @@ def test_blocks_at_edges_that_stand_keep_their_places_and_freed_ones_are_used() 
     assert before.numbers[1] in after.numbers, "its pixel is at no edge now"
     columns, rows = after.places.T
     np.testing.assert_array_equal(after.pixel_of_block[rows * after.size[0] + columns], after.pixels)
-    full = EdgeBlocks.of(np.stack(np.divmod(np.arange(512), 64)[::-1], axis=-1))
-    assert full.after(np.stack(np.divmod(np.arange(600), 64)[::-1], axis=-1), changed, size) is None
+    room = int(np.prod(EdgeBlocks.of(before.pixels).size))
+    full, one_more = (EdgeBlocks.of(np.stack(np.divmod(np.arange(blocks), 64)[::-1], axis=-1)) for blocks in (room, room + 1))
+    assert full.after(one_more.pixels, changed, size) is None
+
+
+@pytest.mark.parametrize("blocks", [1, 512, 700, 1024, 5000])
+def test_the_map_of_blocks_has_room_and_never_a_power_of_two_of_rows(blocks: int) -> None:
+    """llvmpipe finishes each program anew for textures whose size is one: the first picture with things stood still for a second."""
+    made = EdgeBlocks.of(np.stack(np.divmod(np.arange(blocks), 128)[::-1], axis=-1))
+    assert made.rows * made.size[0] >= blocks and made.rows.bit_count() > 1
 
 
 def test_small_blocks_are_drawn_four_at_a_time_where_they_lie_together() -> None:
