@@ -34,6 +34,7 @@ class Panel:
         self._pickers = Pickers()
         self._filter = ""
         self._instances = InstanceGroups()
+        self._active: tuple[Scene, Mapping[str, list[Field]]] | None = None
 
     def draw(self, state: WindowState, reasons: Sequence[str], warnings: Sequence[str], thumbnails: Thumbnails) -> None:
         """Draws the panel into the current window.
@@ -50,9 +51,8 @@ class Panel:
         imgui.set_next_item_width(-1.0)
         _, self._filter = imgui.input_text_with_hint("##filter", "Find a value", self._filter)
         wanted = self._filter.strip().lower()
-        for section, items in _sections().items():
-            shown = [item for item in items if _matches(item, wanted) and _is_active(item, state.scene)]
-            if shown:
+        for section, items in self._active_rows(state.scene).items():
+            if shown := [item for item in items if _matches(item, wanted)]:
                 is_open = _section(section, shown, state, forced_open=bool(wanted))
                 if is_open and section == "rays":
                     _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM, _COST)
@@ -60,8 +60,14 @@ class Panel:
 
     def shown_fields(self, scene: Scene) -> list[Field]:
         """The fields that `scene` has rows for, whatever the filter."""
-        own = [item for items in _sections().values() for item in items if _is_active(item, scene)]
+        own = [item for items in self._active_rows(scene).values() for item in items]
         return [*own, *(item for key, item in scene.fields().items() if instances.place_of(key) is not None)]
+
+    def _active_rows(self, scene: Scene) -> Mapping[str, list[Field]]:
+        """The rows of each section that have a bearing on `scene`: looked for once, as a panel draws the same ones for minutes."""
+        if self._active is None or self._active[0] is not scene:
+            self._active = scene, {section: [item for item in items if _is_active(item, scene)] for section, items in _sections().items()}
+        return self._active[1]
 
     def clear_filter(self) -> None:
         """Has every row shown."""
@@ -166,8 +172,12 @@ def _subheading(title: str, help: str) -> None:
 
 def _plug_in_of(item: Field) -> catalogue.PlugIn | None:
     """The plug-in that declares `item`, or None for the scene's own and for those of instances."""
-    plug_ins = (plug_in for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values())
-    return next((plug_in for plug_in in plug_ins if item.key in plug_in.parameters), None)
+    return _plug_in_by_key().get(item.key)
+
+
+@cache
+def _plug_in_by_key() -> Mapping[str, catalogue.PlugIn]:
+    return {key: plug_in for slot in catalogue.SLOTS for plug_in in catalogue.plug_ins(slot).values() for key in plug_in.parameters}
 
 
 def _is_active(item: Field, scene: Scene) -> bool:

@@ -27,6 +27,7 @@ from blackhole_gl.scene import presets  # noqa: E402
 
 MODULES = (scenarios, scenarios_entry, scenarios_things)
 SIZE = (900, 640)
+SIZE_OF_REAL = (720, 480)  # a picture of a third of the pixels
 PRESETS = ["kerr", "blackholegpu_low"]
 TIMEOUT_S = 200.0  # of a scenario; most take a second
 
@@ -87,7 +88,8 @@ def main() -> int:
         real = any(scenario in (*scenarios.WITH_THE_REAL_RENDERER, *scenarios_things.WITH_THE_REAL_RENDERER) for scenario in chosen)
         maker = real_renderer(Path(folder)) if real else FakeRenderer
         driver = EngineDriver(chosen, Path(folder))
-        window.run(presets.load(PRESETS), null_platform=True, size=SIZE, picture_folder=Path(folder) / scenarios.PICTURES, make_renderer=maker, driver=driver)
+        size = SIZE_OF_REAL if real else SIZE
+        window.run(presets.load(PRESETS), null_platform=True, size=size, picture_folder=Path(folder) / scenarios.PICTURES, make_renderer=maker, driver=driver)
     return len(driver.failed)
 
 

@@ -39,7 +39,7 @@ def run(names: list[str], folder: Path) -> None:
     (folder / "fonts").mkdir()
     shutil.copy(Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"), folder / "fonts")
     (folder / "fonts" / "broken.ttf").write_bytes(b"no font at all")
-    if "preset_switches_never_freeze" in names:
+    if any(name.endswith("preset_switches_never_freeze") for name in names):
         environment["MESA_SHADER_CACHE_DIR"] = str(folder / "compiled")  # empty: as on the first day
     done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -58,6 +58,6 @@ def test_scenarios_with_kinds_of_the_users_own(tmp_path):
     run(WITH_KINDS, tmp_path)
 
 
-@pytest.mark.parametrize("name", REAL)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name.startswith("all_") else name for name in REAL])
 def test_scenario_with_the_real_renderer(name, tmp_path):
     run([name], tmp_path)

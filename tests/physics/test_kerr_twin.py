@@ -91,7 +91,7 @@ def test_shadow_edge_at_infinity_is_bardeens_curve():
         np.testing.assert_array_equal(hits.fate, np.repeat([CAPTURED, ESCAPED], 8))
 
 
-@pytest.mark.parametrize("spin", [0.0, 0.3, -0.95, 0.9999])
+@pytest.mark.parametrize("spin", [0.3, -0.95, *(pytest.param(spin, marks=pytest.mark.slow) for spin in (0.0, 0.9999))])
 def test_every_ray_has_its_exact_fate_and_nothing_is_nan(spin):
     """Everywhere: poles, plane, ergosphere, just above the horizon, far away; radial and tangential rays among them."""
     special = np.array([[-1, 0, 0], [1, 0, 0], [0, 0, 1], [0, 0, -1], [0, 1, 0], [0, -1, 0], [-0.6, 0, 0.8], [0.6, 0, -0.8]], float)

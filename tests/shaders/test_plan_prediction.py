@@ -18,23 +18,26 @@ from blackhole_gl.scene import presets
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and is_charted(presets.load([info.name]))]
 
 
-@pytest.mark.parametrize("name", PHYSICAL)
-def test_the_measured_error_is_within_the_tolerance(renderer, name):
-    scene = presets.load([name])
-    place = ChartScene(name, scene)
+@pytest.fixture(scope="module", params=PHYSICAL)
+def place(request) -> ChartScene:
+    """A scene whose rays are traced by the twin once."""
+    return ChartScene(request.param, presets.load([request.param]))
+
+
+def test_the_measured_error_is_within_the_tolerance(renderer, place):
+    scene = place.scene
     errors = compare(listed_rays.trace_by_shader(renderer, plan.plan(scene).scene, place.rays), place.truth, place.epsilon >= NEAR_CRITICAL)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
 
 
-@pytest.mark.parametrize("name", PHYSICAL)
-def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, name):
+def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, place):
     """In pixels of the picture that is interpolated."""
-    scene = presets.load([name])
+    scene = place.scene
     made = plan.plan(scene)
     # a look-up is nearly as cheap as interpolation: which of the two is taken is the table's to say
     assert made.refine_px > 0.0 or made.integrator is None, "else a moving picture costs several times what it need"
-    errors = refined.errors(renderer, ChartScene(name, scene), plan.plan(scene).scene)
+    errors = refined.errors(renderer, place, plan.plan(scene).scene)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1]) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
     assert errors.lost_crossings <= 0.01
