@@ -168,7 +168,7 @@ def picture_of_any_size(hands: Hands) -> None:
     """Width, height, rays and name as typed; frames go on meanwhile; what is there is replaced only when asked a second time."""
     path = hands.folder / "日本.png"
     press_bar(hands, "picture_window")
-    for name, value in (("##width", 300), ("##height", 200), ("##rays", 3), ("##path", str(path))):
+    for name, value in (("##width", 300), ("##height", 200), ("##rays", 8), ("##path", str(path))):
         hands.context.item_input_value(f"//Picture/{name}", value)
     hands.context.item_click("//Picture/Save")
     frames, shares, window = 0, set(), hands.window.picture_window
