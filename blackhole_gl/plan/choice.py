@@ -6,7 +6,7 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -226,31 +226,22 @@ def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, directio
 
 
 @lru_cache(maxsize=1)
-def measurements() -> tuple[Measured, ...]:
-    """The chart's tables, of holes and of fields; empty where there are none."""
+def measurements() -> Mapping[str, Sequence[Measured]]:
+    """The rows of the chart's tables, of holes and of fields, by the scene they were measured in; empty where there are none."""
     paths = (assets_dir() / name for name in ("measurements.csv", "measurements_fields.csv"))
     models = catalogue.plug_ins("ray_model")
-    return tuple(row for path in paths if path.is_file() for row in read(path) if row.model in models)
+    return {name: rows for path in paths if path.is_file() for name, rows in read(path, models).items()}
 
 
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
-    for kept in (_by_scene, _nearest_scenes, _candidates, _rows_by_method, choose, refinement):
+    for kept in (_nearest_scenes, _candidates, _rows_by_method, choose, refinement):
         kept.cache_clear()
-
-
-@lru_cache(maxsize=1)
-def _by_scene() -> dict[str, list[Measured]]:
-    """The table's rows by the scene they were measured in. Kept, as every frame of a moving camera is a scene to choose for."""
-    found: dict[str, list[Measured]] = {}
-    for row in measurements():
-        found.setdefault(row.scene, []).append(row)
-    return found
 
 
 def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
     for name in scenes:
-        yield from _by_scene()[name]
+        yield from measurements()[name]
 
 
 def _not_measured(scene: Scene) -> str:
@@ -309,7 +300,7 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
 @lru_cache(maxsize=64)
 def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
     """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _by_scene().items() if _is_alike(scene, rows[0]))
+    apart = sorted((_distance(scene, rows[0]), name) for name, rows in measurements().items() if _is_alike(scene, rows[0]))
     if not apart:
         return ()
     return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])

@@ -12,6 +12,7 @@ import numpy as np
 from ..scene import Scene
 from ..scene.catalogue import CatalogueError, PlugIn
 from ..scene.tables import Table
+from . import mip_levels
 from .pictures import Pictures
 from .programs import Draw, Samplers
 
@@ -93,7 +94,7 @@ def _filled(ctx: moderngl.Context, table: Table, values: np.ndarray, old: modern
             old.release()
         texture = ctx.texture((columns, rows), components, values.tobytes(), dtype=dtype, alignment=1)
     if table.filter == "mipmap":
-        texture.build_mipmaps()
+        mip_levels.build(ctx, texture, values)
     texture.filter = _FILTERS[table.filter]
     texture.repeat_x, texture.repeat_y = table.repeat_x, False
     return texture

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import orbit_table
+from blackhole_gl.render import mip_levels
 from blackhole_gl.render.tables import Tables
 from blackhole_gl.scene import Scene, catalogue
 from blackhole_gl.scene.catalogue import CatalogueError
@@ -39,6 +40,38 @@ def test_the_skys_tables_are_filtered_as_its_header_says(ctx: moderngl.Context) 
     assert (band.dtype, band.components, band.filter, band.repeat_x) == ("f1", 3, (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR), True)
     assert (stars.dtype, stars.components, stars.filter, stars.repeat_x) == ("f4", 4, (moderngl.NEAREST, moderngl.NEAREST), False)
     tables.release()
+
+
+READ_LEVEL = """#version 330 core
+uniform sampler2D given; uniform int level; out vec4 found;
+void main() { found = texelFetch(given, ivec2(gl_FragCoord.xy), level); }"""
+WHOLE = "#version 330 core\nvoid main() { gl_Position = vec4(4.0 * (gl_VertexID & 1) - 1.0, 2.0 * (gl_VertexID & 2) - 1.0, 0.0, 1.0); }"
+
+
+@pytest.mark.parametrize("dtype, components", [(np.uint8, 3), (np.uint8, 1), (np.float16, 4), (np.float32, 2)])
+def test_mip_levels_are_means_and_no_driver_is_asked_for_them(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, dtype: type, components: int) -> None:
+    """llvmpipe takes 80 ms for its first ones in a process."""
+    monkeypatch.setattr(moderngl.Texture, "build_mipmaps", lambda *_: pytest.fail("the driver was asked"))
+    values = (np.random.default_rng(3).random((24, 32, components)) * (200 if dtype is np.uint8 else 1)).astype(dtype)
+    texture = ctx.texture((32, 24), components, values.tobytes(), dtype=f"f{values.itemsize}", alignment=1)
+    mip_levels.build(ctx, texture, values)
+    texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.NEAREST)
+    program = ctx.program(vertex_shader=WHOLE, fragment_shader=READ_LEVEL)
+    for level, (width, height) in ((1, (16, 12)), (2, (8, 6)), (3, (4, 3)), (4, (2, 1)), (5, (1, 1))):
+        target = ctx.framebuffer([ctx.texture((width, height), 4, dtype="f4")])
+        target.use()
+        texture.use()
+        program["level"] = level
+        ctx.vertex_array(program, []).render(moderngl.TRIANGLES, vertices=3)
+        found = np.frombuffer(target.read(components=components, dtype="f4"), np.float32).reshape(height, width, components)
+        covered = values if level < 4 else values[8:16]  # of three rows the middle one
+        exact = covered.astype(float).reshape(height, covered.shape[0] // height, width, 32 // width, components).mean(axis=(1, 3))
+        if dtype is np.uint8:  # halves go up, twice a level: a quarter to a half in the mean, one at most
+            assert 0.0 <= (255.0 * found - exact).mean() < 0.6 * level and np.abs(255.0 * found - exact).max() < level + 1e-3
+        else:
+            np.testing.assert_allclose(found, exact, atol=1e-3)  # float16 has 11 bits, and each level is rounded
+    assert ctx.error == "GL_NO_ERROR"
+    texture.release()
 
 
 def test_a_table_is_made_anew_when_what_it_depends_on_changes_and_only_then(ctx: moderngl.Context) -> None:

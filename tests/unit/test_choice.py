@@ -95,7 +95,7 @@ def test_thin_rings_are_not_traced():
 
 
 def test_without_a_table_steps_are_plain(monkeypatch):
-    monkeypatch.setattr(choice, "measurements", lambda: ())
+    monkeypatch.setattr(choice, "measurements", dict)
     plan.forget_measurements()
     made = choice.choose(Scene())
     plan.forget_measurements()
@@ -117,12 +117,23 @@ MARCHED = measured.Measured(
 REFINED = replace(MARCHED, direction_99=0.3 * PIXEL, evaluations=13.0, cost_flat_ratio=3.0, refined=1, cost_unrefined=10.0)
 
 
+def test_a_choice_reads_the_rows_of_scenes_that_are_near_and_one_of_each_other(monkeypatch):
+    """A start spends 20 ms on reading all of them."""
+    read = []
+    monkeypatch.setattr(measured, "_row", lambda texts, row=measured._row: read.append(texts["scene"]) or row(texts))
+    choice.measurements.cache_clear()
+    plan.forget_measurements()
+    choice.choose(KERR)
+    assert read.count("kerr") > 20 and all(read.count(name) == 1 for name in set(read) - {"kerr"})
+
+
 @pytest.fixture
 def stored(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     """A call that puts rows in the place of the stored table."""
 
     def put(*rows: measured.Measured) -> None:
-        monkeypatch.setattr(choice, "measurements", lambda: rows)
+        by_scene = {name: [row for row in rows if row.scene == name] for name in dict.fromkeys(row.scene for row in rows)}
+        monkeypatch.setattr(choice, "measurements", lambda: by_scene)
         plan.forget_measurements()
 
     yield put
@@ -184,7 +195,7 @@ def test_tables_without_refinement_are_read_as_such(tmp_path):
         texts = ("" if values[name] != values[name] else str(values[name]) for name in columns)
         path = tmp_path / "table.csv"
         path.write_text("# measured somewhere\n" + ",".join(columns) + "\n" + ",".join(texts) + "\n", encoding="utf-8")
-        (found,) = measured.read(path)
+        ((found,),) = measured.read(path, [row.model]).values()
         return found
 
     old = [name for name in measured.COLUMNS if name not in ("refined", "cost_unrefined")]
