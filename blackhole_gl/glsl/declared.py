@@ -42,7 +42,7 @@ class PixelClass(IntEnum):
 
 
 class EdgeMark(IntEnum):
-    """What shaders/common/edge_marks.glsl tells of a pixel's ray, in eight bits of which the first two hold its fate."""
+    """What shaders/common/edge_marks.glsl tells of a pixel's ray, in eight bits of which the first two hold its fate, and eight of what is met."""
 
     RING_1 = 4
     """Two bits: where the crossing that makes the first ring lies."""
@@ -52,6 +52,8 @@ class EdgeMark(IntEnum):
     """The direct picture hides the first ring's edges."""
     NO_RAY = 255
     """The pixel has no ray of its own."""
+    MET = 127
+    """Of the second eight bits: those that tell things and media apart, 0 where none is met."""
 
 
 def defines() -> dict[str, int]:

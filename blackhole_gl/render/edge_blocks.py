@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..shapes import Int
+from ..shapes import Bool, Int
+from .hit_map import FreshBlocks
 from .squares import Squares
 
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
@@ -24,16 +25,20 @@ class EdgeBlocks:
         pixels: column and row of each, from the bottom left, int (N, 2).
         numbers: of each pixel's block, two by two and those row by row, so that blocks with numbers side by side lie together both ways; int (N,).
         rows: of blocks that the map has room for; some are nobody's.
+        seeking: whether the rays of each pixel's block look for things and media; bool (N,).
     """
 
     pixels: Int[np.ndarray, "pixels 2"]
     numbers: Int[np.ndarray, " pixels"]
     rows: int
+    seeking: Bool[np.ndarray, " pixels"]
 
     @classmethod
-    def of(cls, pixels: Int[np.ndarray, "pixels 2"]) -> EdgeBlocks:
-        """Blocks for `pixels`, one after the other."""
-        return cls(pixels, np.arange(len(pixels)), _rows_for(len(pixels)))
+    def of(cls, pixels: Int[np.ndarray, "pixels 2"], seeking: Bool[np.ndarray, " pixels"]) -> EdgeBlocks:
+        """Blocks for `pixels`, one after the other, those `seeking` first."""
+        numbers = np.empty(len(pixels), int)
+        numbers[np.argsort(~seeking, kind="stable")] = np.arange(len(pixels))
+        return cls(pixels, numbers, _rows_for(len(pixels)), seeking)
 
     @property
     def size(self) -> tuple[int, int]:
@@ -53,10 +58,12 @@ class EdgeBlocks:
         found[rows, columns] = self.pixels
         return found.reshape(-1, 2)
 
-    def after(self, pixels: Int[np.ndarray, "pixels 2"], changed: Squares, size: tuple[int, int]) -> tuple[EdgeBlocks, Int[np.ndarray, "fresh 2"]] | None:
-        """The blocks once `changed` of a picture of `size` are other than before and `pixels` are at edges, and the places of those whose rays are still to be
-        traced; None where there is no room for them."""
-        old, new = (picked[:, 1] * size[0] + picked[:, 0] for picked in (self.pixels, pixels))
+    def after(
+        self, pixels: Int[np.ndarray, "pixels 2"], seeking: Bool[np.ndarray, " pixels"], changed: Squares, size: tuple[int, int]
+    ) -> tuple[EdgeBlocks, Bool[np.ndarray, " pixels"]] | None:
+        """The blocks once `changed` of a picture of `size` are other than before and `pixels` are at edges, and which of them have rays still to be traced, as
+        have those that look for things now and did not; None where there is no room for them."""
+        old, new = (2 * (picked[:, 1] * size[0] + picked[:, 0]) + sought for picked, sought in ((self.pixels, self.seeking), (pixels, seeking)))
         standing = np.flatnonzero(~changed.holds(self.pixels, size))
         _, of_old, of_new = np.intersect1d(old[standing], new, assume_unique=True, return_indices=True)
         numbers = np.full(len(pixels), -1)
@@ -65,8 +72,31 @@ class EdgeBlocks:
         free = np.setdiff1d(np.arange(_IN_A_ROW * self.rows), numbers[~fresh], assume_unique=True)
         if len(free) < np.count_nonzero(fresh):
             return None
-        numbers[fresh] = free[: np.count_nonzero(fresh)]
-        return EdgeBlocks(pixels, numbers, self.rows), _places(numbers[fresh])
+        first, last = np.flatnonzero(fresh & seeking), np.flatnonzero(fresh & ~seeking)  # apart, as each kind is drawn by itself
+        numbers[first], numbers[last] = free[: len(first)], free[len(free) - len(last) :]
+        return EdgeBlocks(pixels, numbers, self.rows, seeking), fresh
+
+    def fresh(self, picked: Bool[np.ndarray, " pixels"], side: int, *, all_new: bool) -> FreshBlocks:
+        """The blocks `picked` of a map of blocks of `side`² rays, which is `all_new` or holds the others already."""
+        seeking, others = (self._squares(picked & kind, side) for kind in (self.seeking, ~self.seeking))
+        changed = None if all_new else self._groups(_numbers_of(self.places[picked] // _together(side)), side)
+        return FreshBlocks(seeking, others, changed)
+
+    def _squares(self, picked: Bool[np.ndarray, " pixels"], side: int) -> tuple[Squares, ...]:
+        """The squares of the map that hold the blocks `picked`. Blocks that are shaded together lie in one square where all look for the same, else each has a
+        square of its own."""
+        group = _numbers_of(self.places // _together(side))
+        seek = np.bincount(group, self.seeking)
+        mixed = picked & (seek > 0.0)[group] & (seek < np.bincount(group))[group]
+        return self._groups(group[picked & ~mixed], side), Squares.of(self.places[mixed], side, self._size_of_map(side))
+
+    def _groups(self, numbers: Int[np.ndarray, " groups"], side: int) -> Squares:
+        """The squares of all that is shaded together, by the numbers that `_numbers_of` gives, each once."""
+        rows, columns = np.divmod(np.flatnonzero(np.bincount(numbers)), _IN_A_ROW)
+        return Squares.of(np.stack([columns, rows], axis=-1), _together(side) * side, self._size_of_map(side))
+
+    def _size_of_map(self, side: int) -> tuple[int, int]:
+        return side * self.size[0], side * self.size[1]
 
 
 def _rows_for(blocks: int) -> int:
@@ -77,10 +107,14 @@ def _rows_for(blocks: int) -> int:
     return rows
 
 
-def squares_of(places: Int[np.ndarray, "blocks 2"], side: int, size: tuple[int, int]) -> Squares:
-    """The squares of a map of `size` that hold the blocks of `side`² rays at `places`: of as many as are shaded together, others' too."""
-    blocks = max(_TOGETHER // side, 1)
-    return Squares.of(np.unique(places // blocks, axis=0), blocks * side, size)
+def _together(side: int) -> int:
+    """Blocks of `side`² rays, along each axis, that are shaded together."""
+    return max(_TOGETHER // side, 1)
+
+
+def _numbers_of(places: Int[np.ndarray, "places 2"]) -> Int[np.ndarray, " places"]:
+    """A number for each place in rows as long as the map's."""
+    return places[:, 1] * _IN_A_ROW + places[:, 0]
 
 
 def _places(numbers: np.ndarray) -> np.ndarray:

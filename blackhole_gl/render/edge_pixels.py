@@ -29,11 +29,14 @@ class EdgePixels:
         self._own: Target | None = None
         self._classes: moderngl.Texture | None = None  # that it draws by
 
-    def find(self, inputs: FrameInputs, hit_map: HitMap) -> np.ndarray:
-        """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2). Waits for the GPU."""
+    def find(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[np.ndarray, np.ndarray]:
+        """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
+        medium, bool (N,). Waits for the GPU."""
         classes = hit_map.classes
-        marks = self._sorting.of(inputs, hit_map).marks if classes is None else self._marks_of_own_rays(inputs, hit_map, classes)
-        return at_edges(np.frombuffer(marks.read(alignment=1), "<u2").reshape(marks.height, marks.width))
+        texture = self._sorting.of(inputs, hit_map).marks if classes is None else self._marks_of_own_rays(inputs, hit_map, classes)
+        marks = np.frombuffer(texture.read(alignment=1), "<u2").reshape(texture.height, texture.width)
+        pixels = at_edges(marks)
+        return pixels, beside_things(marks, pixels) if inputs.plan.meetings else np.zeros(len(pixels), bool)
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -82,6 +85,18 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
         differs |= _has_ray(beside) & ((beside ^ here) & counts != 0)
     found = differs & _has_ray(here)
     return np.stack([x[found] + (columns.start - 1), y[found] + (rows.start - 1)], axis=-1)
+
+
+def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+    """Within or beside which of `pixels` (N, 2) of `marks` (height, width) a thing or a medium is met, bool (N,)."""
+    height, width = marks.shape
+    columns, rows = pixels.T
+    found = np.zeros(len(pixels), bool)
+    for up in (-1, 0, 1):
+        for right in (-1, 0, 1):
+            there = marks[np.clip(rows + up, 0, height - 1), np.clip(columns + right, 0, width - 1)]
+            found |= _has_ray(there) & (there >> 8 & EdgeMark.MET != 0)
+    return found
 
 
 def _part_with_changes(marks: np.ndarray) -> tuple[slice, slice]:

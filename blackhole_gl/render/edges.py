@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from .classes import Where, drawn
-from .edge_blocks import EdgeBlocks, squares_of
+from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
 from .hit_map import HitMap, RayBlocks
 from .inputs import FrameInputs
@@ -60,12 +60,13 @@ class EdgeRays:
         Args:
             moving: fewer rays will do, as for every map that is not sharp.
         """
-        side = _side(inputs.plan.scene.rays.edges, moving=moving or not hit_map.is_sharp)
+        moving = moving or not hit_map.is_sharp
+        side = _side(inputs.plan.scene.rays.edges, moving=moving)
         plan = inputs.plan
-        key = (hit_map.generation, side, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
+        key = (hit_map.generation, side, moving, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
             changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
-            self._trace(inputs, hit_map, side, changed)
+            self._trace(inputs, hit_map, side, changed, moving=moving)
             self._key = key
         if self._blocks is None or self._radiance is None or self._places is None:
             return
@@ -99,24 +100,28 @@ class EdgeRays:
                 item.release()
         self._texture, self._radiance, self._places, self._blocks, self._key, self._held = None, None, None, None, None, None
 
-    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None) -> None:
-        """Finds the pixels at edges, and traces `side`² rays of each, those that stand outside `changed` alone left out; none where that is one."""
+    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None, *, moving: bool) -> None:
+        """Finds the pixels at edges, and traces `side`² rays of each, those that stand outside `changed` alone left out; none where that is one.
+
+        While anything is `moving`, rays of pixels within and beside which no thing is met look for none.
+        """
         before, self._held, self._blocks = self._held, None, None
         if side == 1:
             return
-        pixels = self._find.find(inputs, hit_map)
+        pixels, seeking = self._find.find(inputs, hit_map)
+        if not (moving and inputs.plan.meetings):
+            seeking = np.ones(len(pixels), bool)
         if not len(pixels):
             return
         if self._places is None or self._places.size != inputs.size:
             if self._places is not None:
                 self._places.release()
             self._places = _Places(self._ctx, inputs.size)
-        found = before.after(pixels, changed, inputs.size) if before is not None and changed is not None else None
-        self._held, fresh = (EdgeBlocks.of(pixels), None) if found is None else found
+        found = before.after(pixels, seeking, changed, inputs.size) if before is not None and changed is not None else None
+        self._held, fresh = (EdgeBlocks.of(pixels, seeking), np.ones(len(pixels), bool)) if found is None else found
         self._places.write(pixels, self._held.places)
         self._blocks = self._blocks_of(self._held, side)
-        size = self._blocks.size
-        self._map.trace_blocks(inputs, self._blocks, None if fresh is None else squares_of(fresh, side, size))
+        self._map.trace_blocks(inputs, self._blocks, self._held.fresh(fresh, side, all_new=found is None))
 
     def _blocks_of(self, held: EdgeBlocks, side: int) -> RayBlocks:
         """The blocks of rays, and a target for what they show."""

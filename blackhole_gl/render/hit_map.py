@@ -55,6 +55,21 @@ class RayBlocks:
         return {"block_pixels": self.pixels}
 
 
+@dataclass(frozen=True, eq=False)
+class FreshBlocks:
+    """Which blocks of a map are to be traced, as squares of it.
+
+    Attributes:
+        seeking: of rays that look for things and media.
+        others: of rays that end on nothing but the hole.
+        changed: holds all of them; None where the map holds no others that stand.
+    """
+
+    seeking: tuple[Squares, ...]
+    others: tuple[Squares, ...]
+    changed: Squares | None
+
+
 # Rays that end on nothing but the hole: those between which hits are interpolated.
 _ON_NOTHING = {"MEETINGS": 0}
 
@@ -157,20 +172,21 @@ class HitMap:
         found = self._reach.squares(inputs, np.concatenate([before.balls[moved], now.balls[moved]]))
         return found if len(found) * REACH_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
 
-    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, changed: Squares | None = None) -> None:
-        """Traces the rays of `blocks`, all of the picture of `inputs`; or those of the blocks `changed` alone, where the map holds the others already."""
+    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, fresh: FreshBlocks) -> None:
+        """Traces the rays of `blocks`, of the picture of `inputs`, that are `fresh`."""
         inputs = inputs.drawn_as(blocks.size)
-        self._last, self._blocks = inputs, blocks
-        rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS)
-        rays.sample(blocks.samplers)
-        rays.set(block_side=float(blocks.side))
-        self._bind_tables(rays)
+        self._last, self._blocks, self._refined_for = inputs, blocks, None
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
-        if changed is None:
-            self._trace_rows(rays, target, 0, inputs.size[1])
-        else:
-            self._trace_squares(rays, target, changed)
-        self._changed = None if changed is None else (self.generation, changed)
+        if fresh.changed is None:
+            target.clear()
+        for switches, squares in (({}, fresh.seeking), (_ON_NOTHING | {"NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
+            rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS | switches)
+            rays.sample(blocks.samplers)
+            rays.set(block_side=float(blocks.side))
+            self._bind_tables(rays)
+            for some in squares:
+                self._trace_squares(rays, target, some)
+        self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
         self._key, self.generation = None, next(_GENERATIONS)
         self.traces += 1
 

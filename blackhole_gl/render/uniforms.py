@@ -169,7 +169,7 @@ def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_STEP": REACH_STEP}
-    found |= {"MEETINGS": plan.meetings, **instances.switches(instances.used(plan.scene))}
+    found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, **instances.switches(instances.used(plan.scene))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}

@@ -19,7 +19,8 @@ vec2 edge_mark(Hits hits, ivec2 pixel) {
 #endif
 #if MEETINGS
     for (int k = 0; k < MEETINGS; ++k)
-        met = (met * 31 + hits.meeting[k].kind + 1) & 127;
+        met = met * 31 + hits.meeting[k].kind + 1;
+    met = met > 0 ? 1 + met % EDGE_MET : 0;
 #endif
 #if ORDERS > 1
     met |= on_disk(hits.crossing[2]) ? ((pixel.x + pixel.y) & 1) << 7 : 0;

@@ -25,11 +25,12 @@ layout(location = 2) out vec4 hits2_out;
 #define FREE_TARGET_2 3
 #define FREE_TARGET_3 4
 #endif
-#if MEETINGS
+// NO_MEETINGS: of rays that look for no things or media, in a map of rays that do: as many as those keep.
+#if MEETINGS || NO_MEETINGS
 layout(location = FREE_TARGET_0) out vec4 met0_out;
 layout(location = FREE_TARGET_1) out vec4 way0_out;
 #endif
-#if MEETINGS > 1
+#if MEETINGS > 1 || NO_MEETINGS > 1
 layout(location = FREE_TARGET_2) out vec4 met1_out;
 layout(location = FREE_TARGET_3) out vec4 way1_out;
 #endif
@@ -98,6 +99,12 @@ void store_hits(Hits traced) {
 #if MEETINGS > 1
     met1_out = met_texel(hits.meeting[1]);
     way1_out = way_texel(hits.meeting[1]);
+#endif
+#if NO_MEETINGS
+    met0_out = way0_out = vec4(0.0);
+#endif
+#if NO_MEETINGS > 1
+    met1_out = way1_out = vec4(0.0);
 #endif
 #if RAYS_LISTED
     momenta0_out = vec4(covariant_momentum(hits.crossing[0], hits.momentum[0]), covariant_momentum(hits.crossing[1], hits.momentum[1]));

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.declared import EdgeMark, Fate
-from blackhole_gl.render.edge_pixels import at_edges
+from blackhole_gl.render.edge_pixels import at_edges, beside_things
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF
@@ -35,6 +35,17 @@ def test_edges_are_found_wherever_they_are(seed: int) -> None:
     few = np.where(random.random((height, width)) < 0.15, patches, random.choice((SKY, NO_RAY, SKY | EdgeMark.VEILED))).astype(np.uint16)
     for marks in (patches.astype(np.uint16), few):
         assert [tuple(pixel) for pixel in at_edges(marks).tolist()] == by_pixel(marks)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_pixels_beside_things_are_told(seed: int) -> None:
+    """What is met lies in the upper seven bits less one; of a pixel without a ray all bits are set, and it shows nothing."""
+    random = np.random.default_rng(seed)
+    marks = random.choice((*MARKS, SKY | 1 << 15), (9, 14), p=(0.9, *[0.1 / 9] * 9)).astype(np.uint16)
+    pixels = np.stack(np.divmod(np.arange(marks.size), 14)[::-1], axis=-1)
+    shows = (marks != NO_RAY) & (marks >> 8 & 127 != 0)
+    expected = [bool(shows[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].any()) for x, y in pixels]
+    assert beside_things(marks, pixels).tolist() == expected and 0 < sum(expected) < marks.size
 
 
 def test_a_picture_of_one_kind_has_no_edges() -> None:
