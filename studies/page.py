@@ -10,7 +10,9 @@ from blackhole_gl.measure.scenes import SHOWN, ChartScene
 from blackhole_gl.scene import catalogue
 from studies.critical import Point
 from studies.finest import AWAY, BOUNDS, CLOSE, Finest
+from studies.lens_by_distance import LensError
 from studies.measure import Row
+from studies.page_lens import lens_section
 from studies.page_refined import refined_section
 from studies.pareto import front
 from studies.sizes import Cost
@@ -34,13 +36,14 @@ class Findings:
     validation: Validation
     finest: Sequence[Finest]
     chosen: Mapping[str, Row]
+    lens: Sequence[LensError]
     outside: Sequence[Mapping[str, str]]
 
 
 def page(found: Findings, where: Origin, command: str) -> str:
     """The page as Markdown."""
     parts = [_head(found, where, command), _methods(found), refined_section(found.rows, found.scenes), _floors(found)]
-    parts += [_finest(found.finest), _best(found), _critical()]
+    parts += [_finest(found.finest), _best(found), _critical(), lens_section(found.lens)]
     return "\n".join([*parts, _sizes(found), _validation(found.validation), _outside(found.outside)])
 
 
@@ -50,7 +53,7 @@ def _head(found: Findings, where: Origin, command: str) -> str:
     return f"""# Accuracy and cost
 
 Made by `{command}`; do not edit. Measured on: {where.text}. The numbers behind it: [data/accuracy.csv](data/accuracy.csv),
-[data/accuracy_critical.csv](data/accuracy_critical.csv), [data/accuracy_sizes.csv](data/accuracy_sizes.csv).
+[data/accuracy_critical.csv](data/accuracy_critical.csv), [data/accuracy_sizes.csv](data/accuracy_sizes.csv), [data/accuracy_lens.csv](data/accuracy_lens.csv).
 
 {len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)}
 scenes: the chart's own and, in a full run, every shipped preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays

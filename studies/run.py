@@ -12,7 +12,7 @@ from blackhole_gl.output.files import write_whole
 from blackhole_gl.plan import choice
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import Scene, presets
-from studies import critical, page, pictures, sizes, table
+from studies import critical, lens_by_distance, page, pictures, sizes, table
 from studies.cost_lines import by_work
 from studies.finest import finest
 from studies.measure import Row
@@ -53,6 +53,7 @@ def make(
     progress(0.98, "BlackHoleGPU's validation")
     validation = validate(renderer)
     best = finest(renderer, scenes)
+    lens = lens_by_distance.by_distance(quick)
     progress(0.99, "pictures and page")
     if plan_table is not None:
         table.write_contract(plan_table, by_work(rows), where)
@@ -60,11 +61,12 @@ def make(
         plan.forget_measurements()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
-    found = page.Findings(scenes, rows, points, costs, validation, best, chosen, table.read(outside) if outside.exists() else [])
+    found = page.Findings(scenes, rows, points, costs, validation, best, chosen, lens, table.read(outside) if outside.exists() else [])
     files = {
         "data/accuracy.csv": lambda path: table.write(path, rows, where),
         "data/accuracy_critical.csv": lambda path: table.write_records(path, critical.COLUMNS, _records(points, critical.COLUMNS), where),
         "data/accuracy_sizes.csv": lambda path: table.write_records(path, sizes.COLUMNS, _records(costs, sizes.COLUMNS), where),
+        "data/accuracy_lens.csv": lambda path: table.write_records(path, lens_by_distance.COLUMNS, _records(lens, lens_by_distance.COLUMNS), where),
         "pictures/accuracy_methods.png": lambda path: pictures.draw_methods(path, rows, scenes, chosen),
         "pictures/accuracy_critical.png": lambda path: pictures.draw_critical(path, points),
         "pictures/accuracy_sizes.png": lambda path: pictures.draw_sizes(path, costs),

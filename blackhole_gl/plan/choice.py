@@ -14,6 +14,7 @@ from ..physics.space_time import is_field, ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
 from ..scene.schema import number_of
+from . import thin_lens
 from .measured import Measured, Method, read
 
 AUTO = "auto"
@@ -90,8 +91,12 @@ class Choice:
 
 
 @lru_cache(maxsize=64)
-def choose(scene: Scene) -> Choice:
-    """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open."""
+def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
+    """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open.
+
+    Args:
+        sky_alone: whether a method will do that shows nothing but the sky rightly, where there is nothing else.
+    """
     if not is_open(scene):
         return Choice(scene, None, None, math.nan, True, (f"{ray_model(scene).key}: stated by rays.model and the steps",))
     if scene.rays.model == AUTO and (scene.rays.step_angle or scene.rays.step_length):
@@ -99,7 +104,7 @@ def choose(scene: Scene) -> Choice:
     why_not = _not_measured(scene)
     if why_not:
         return Choice(_plainly(scene), None, None, math.nan, True, (why_not,))
-    found = sorted(predictions(scene), key=lambda p: p.cost)
+    found = sorted(predictions(scene, sky_alone), key=lambda p: p.cost)
     if not found:
         return Choice(_plainly(scene), None, None, math.nan, True, ("nothing was measured that fits: plain steps",))
     floor = min(p.error_px for p in found)
@@ -126,14 +131,18 @@ def is_open(scene: Scene) -> bool:
     return AUTO in (scene.rays.integrator, scene.rays.step_control) or step == 0.0
 
 
-def predictions(scene: Scene) -> Iterator[Prediction]:
-    """What the chart lets expect of every measured method that fits what `scene` states."""
+def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
+    """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
     # A stronger field asks for shorter steps; a control that judges its steps finds them.
     any_control = not is_field(scene) or _is_as_measured(scene)
     for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
         if not any_control and not method.step_tolerance:
             continue
         yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
+    if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
+        # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
+        rows = tuple(row for row in _measured_in(_nearest_scenes(scene)) if row.model == thin_lens.MODEL)
+        yield from (Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
 
 
 @lru_cache(maxsize=64)

@@ -47,7 +47,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
     scene, why_other = _meeting_things(scene)
-    chosen = choice.choose(scene)
+    chosen = choice.choose(scene, sky_alone=not keep_crossings)
     scene, reasons = chosen.scene, list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",))
     reasons += why_other
     model, where = ray_model(scene), space_time(scene)

@@ -20,7 +20,7 @@ from blackhole_gl.physics import relativity
 from blackhole_gl.plan import choice, measured
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
-from studies import critical, finest, measure, page, pareto, pictures, run, sizes, table, validation
+from studies import critical, finest, lens_by_distance, measure, page, pareto, pictures, run, sizes, table, validation
 from studies.survey import own_twin
 from studies.work import Kept, key_of
 
@@ -256,6 +256,9 @@ def test_what_the_plan_may_choose_is_also_measured_refined() -> None:
             assert method.applied(item.scene, 0.1).rays.tolerance == choice.REFINED_TOLERANCE
 
 
+LENS = [lens_by_distance.LensError(30.0, 40.0, 73.0, 1630.0, math.inf), lens_by_distance.LensError(10000.0, 40.0, 0.14, 0.19, 0.2)]
+
+
 def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: measure.Row, refined_row: measure.Row, near: ChartScene) -> None:
     rows = [row, refined_row, replace(row, step_angle=0.2, direction_99=1e-3, cost_flat_ratio=0.5 * row.cost_flat_ratio)]
     points = [critical.Point("a0_near", "kerr, rk4, mino", 0.2, e, 1e-7 / e, 1e-6 / e, 0.0) for e in (1e-3, 1e-2)]
@@ -265,9 +268,10 @@ def test_page_and_pictures_are_written(tmp_path: Path, renderer: Renderer, row: 
     pictures.draw_sizes(tmp_path / "c.png", costs)
     for name in "abc":
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
-    found = page.Findings([near], rows, points, costs, validation.validate(renderer), finest.finest(renderer, [near]), {"a0_near": row}, [])
+    found = page.Findings([near], rows, points, costs, validation.validate(renderer), finest.finest(renderer, [near]), {"a0_near": row}, LENS, [])
     text = page.page(found, WHERE, "a test")
     assert "nan" not in text and "a machine" in text
+    assert "| 30 | 73 | 1630 (–) |" in text and "| 10000 | 0.14 | 0.19 (0.2) |" in text
     assert "1 methods" in text and "1 of them also refined" in text and "| a0_near | kerr, rk4, mino | 0.1 |" in text
     table_values = {"model": "schwarzschild_table", "integrator": "", "step_control": "", "step_angle": math.nan, "cost_flat_ratio": 0.1}
     closed = [replace(item, **table_values) for item in (row, refined_row)]

@@ -203,3 +203,37 @@ def test_tables_without_refinement_are_read_as_such(tmp_path):
     assert repr(read_back(MARCHED)) == repr(MARCHED)
     new = read_back(replace(MARCHED, refined=1, cost_unrefined=10.0))
     assert new.refined and new.cost_unrefined == 10.0 and new.stated == MARCHED.stated
+
+
+FAR_SKY = Scene().with_values({"disk.enabled": False, "camera.distance": 10000.0, "camera.fov_deg": 40.0})
+
+
+def test_far_from_a_hole_before_its_sky_alone_a_thin_lens_is_enough():
+    made = choice.choose(FAR_SKY)
+    assert made.chosen.method.model == "screen_lens" and made.chosen.error_px == pytest.approx(0.2, rel=0.05)
+    assert made.chosen.cost == min(p.cost for p in choice.predictions(FAR_SKY)), "the cheapest of all"
+    assert choice.choose(FAR_SKY.with_values({"hole.spin": 0.9})).chosen.method.model == "screen_lens", "which it is off by too little"
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"camera.distance": 100.0},
+        {"camera.distance": 100.0, "rays.tolerance": 100.0, "camera.fov_deg": 90.0},
+        {"camera.distance": 3000.0},
+        {"rays.tolerance": 0.1},
+        {"camera.fov_deg": 5.0},
+        {"disk.enabled": True},
+        {"things.ball.kind": "sphere"},
+        {"rays.screen_lens.radius": 2.0},
+        {"hole.gravity_strength": 2.0},
+        {"rays.model": "schwarzschild"},
+    ],
+)
+def test_the_thin_lens_is_not_taken_where_it_shows_something_wrong(changes):
+    assert choice.choose(FAR_SKY.with_values(changes)).scene.rays.model != "screen_lens"
+
+
+def test_crossings_that_are_asked_for_are_not_a_thin_lens_s():
+    assert plan.plan(FAR_SKY).model.key == "screen_lens"
+    assert plan.plan(FAR_SKY, keep_crossings=True).model.key != "screen_lens"
