@@ -7,12 +7,14 @@ single precision, so that nothing runs away after hours.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from ..scene import Instance, Scene, catalogue, met
+from ..scene import Instance, Scene, met
+from ..scene.instances import Instances
+from ..scene.plug_in import PlugIn
 from ..scene.schema import number_of
 from ..scene.traits import MetTraits
 from ..shapes import Float
@@ -45,23 +47,69 @@ _STILL = np.zeros(3)
 _UPRIGHT = np.array([0.0, 0.0, 0.0, 1.0])
 
 
-def motions(scene: Scene, slot: str, where: SpaceTime, time: float) -> Iterator[tuple[Instance, Motion]]:
-    """The instances of `slot`, ``thing`` or ``medium``, in the scene's order, each with its motion at `time` (r_s/c)."""
-    kinds = catalogue.plug_ins(slot)
-    for instance in met.instances(scene, slot):
-        yield instance, of(instance, kinds[instance.kind].traits, where, time)
+@dataclass(frozen=True)
+class Mover:
+    """An instance whose motion is another at another time: its place in the scene's order, and its name."""
+
+    place: int
+    name: str
+    instance: Instance
+    traits: MetTraits
+
+
+def rows(scene: Scene, slot: str, where: SpaceTime, time: float) -> Float[np.ndarray, "instances 4 4"]:
+    """The motion at `time` (r_s/c) of the instances of `slot`, ``thing`` or ``medium``, in the scene's order: centre and reach, velocity, spin, attitude."""
+    standing, moving = _parted(met.named(scene, slot), tuple(met.kinds(scene, slot)))
+    found = standing.copy()
+    for mover in moving:
+        found[mover.place] = _row(of(mover.instance, mover.traits, where, time))
+    return found
+
+
+def movers(scene: Scene, slot: str) -> tuple[Mover, ...]:
+    """Those instances of `slot` that move or turn, in the scene's order."""
+    return _parted(met.named(scene, slot), tuple(met.kinds(scene, slot)))[1]
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _parted(named: Instances, kinds: tuple[PlugIn, ...]) -> tuple[Float[np.ndarray, "instances 4 4"], tuple[Mover, ...]]:
+    """The rows of those that stand, nothing in those of the others; and the others."""
+    traits = {kind.key: kind.traits for kind in kinds}
+    standing, moving = np.zeros((len(named), 4, 4)), []
+    for place, (name, instance) in enumerate(named.items()):
+        if _stands(instance, traits[instance.kind]):
+            standing[place] = _row(_standing(instance, traits[instance.kind]))
+        else:
+            moving.append(Mover(place, name, instance, traits[instance.kind]))
+    standing.setflags(write=False)
+    return standing, tuple(moving)
+
+
+def _row(motion: Motion) -> Float[np.ndarray, "4 4"]:
+    return np.array([(*motion.centre, motion.reach), (*motion.velocity, 0.0), (*motion.spin, 0.0), motion.attitude])
 
 
 def of(instance: Instance, traits: MetTraits, where: SpaceTime, time: float) -> Motion:
     """The motion of `instance`, whose kind has `traits`, at scene time `time` (r_s/c)."""
-    reach = met.extent(instance, traits)
-    if not traits.moves:
-        centre = np.array([_number(instance, name) for name in traits.centre]) if traits.centre else _STILL
-        return Motion(centre, reach, _STILL, _STILL, _UPRIGHT)
+    if _stands(instance, traits):
+        return _standing(instance, traits)
     centre, velocity = (_at_rest(instance), _STILL) if instance.values["path"] == "fixed" else _on_circle(instance, where, time)
     velocity = _possible_share(centre, velocity, where) * velocity
     axis, attitude = _attitude(instance, time)
-    return Motion(centre, reach, velocity, _number(instance, "turn_rate") * axis, attitude)
+    return Motion(centre, met.extent(instance, traits), velocity, _number(instance, "turn_rate") * axis, attitude)
+
+
+def _stands(instance: Instance, traits: MetTraits) -> bool:
+    """Whether its motion is the same at all times."""
+    return not traits.moves or instance.values["path"] == "fixed" and instance.values["turn_rate"] == 0.0
+
+
+def _standing(instance: Instance, traits: MetTraits) -> Motion:
+    """The motion of an instance that stands."""
+    if traits.moves:
+        return Motion(_at_rest(instance), met.extent(instance, traits), _STILL, _STILL, _attitude(instance, 0.0)[1])
+    centre = np.array([_number(instance, name) for name in traits.centre]) if traits.centre else _STILL
+    return Motion(centre, met.extent(instance, traits), _STILL, _STILL, _UPRIGHT)
 
 
 def moves(instance: Instance, traits: MetTraits) -> bool:

@@ -117,10 +117,9 @@ def _why_slower(scene: Scene, where: SpaceTime) -> tuple[str, ...]:
     """What to say of things and media that are to move faster than light."""
     found = []
     for section, slot in instances.SLOTS.items():
-        kinds = catalogue.plug_ins(slot)
-        for name, instance in getattr(scene, section).items():
-            if motion.outruns_light(instance, kinds[instance.kind].traits, where):
-                found.append(f"{section}.{name} goes round faster than light can: its light is shifted as if it were just slower than that")
+        for mover in motion.movers(scene, slot):
+            if motion.outruns_light(mover.instance, mover.traits, where):
+                found.append(f"{section}.{mover.name} goes round faster than light can: its light is shifted as if it were just slower than that")
     return tuple(found)
 
 

@@ -7,13 +7,15 @@ longer: neither compiles anything.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 
 import moderngl
 import numpy as np
 
 from ..physics import motion
 from ..plan import Plan
-from ..scene import Instance, Scene, catalogue, met, surfaces
+from ..scene import FrozenMap, Scene, met, surfaces
+from ..scene.instances import Instances
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field, Value, number_of
 from . import hierarchy, lamps, meshes, pictures
@@ -82,20 +84,23 @@ def used(scene: Scene) -> list[PlugIn]:
 
 def key(plan: Plan, time: float) -> tuple:
     """What hits depend on here, an entry for each instance: its slot, kind and values but for its surface, and the places of those that move."""
-    return tuple(_key_of(instance, kinds[instance.kind], plan, time) for slot, kinds in _catalogues() for instance in met.instances(plan.scene, slot))
+    found: list[tuple] = []
+    for slot in met.SLOTS:
+        shapes = list(_shapes(met.named(plan.scene, slot), tuple(met.kinds(plan.scene, slot))))
+        for mover in motion.movers(plan.scene, slot):
+            if motion.moves(mover.instance, mover.traits):
+                here = motion.of(mover.instance, mover.traits, plan.space_time, time)
+                shapes[mover.place] = *shapes[mover.place], here.centre.tobytes(), b"" if mover.traits.round else here.attitude.tobytes()
+        found += shapes
+    return tuple(found)
 
 
-def _catalogues() -> list[tuple[str, Mapping[str, PlugIn]]]:
-    return [(slot, catalogue.plug_ins(slot)) for slot in met.SLOTS]
-
-
-def _key_of(instance: Instance, kind: PlugIn, plan: Plan, time: float) -> tuple:
-    looks = surfaces.SURFACE if _has_surface(kind) else {}
-    shape = kind.slot, instance.kind, tuple(value for name, value in instance.values.items() if name not in looks)
-    if not motion.moves(instance, kind.traits):
-        return shape
-    here = motion.of(instance, kind.traits, plan.space_time, time)
-    return *shape, here.centre.tobytes(), b"" if kind.traits.round else here.attitude.tobytes()
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _shapes(named: Instances, kinds: tuple[PlugIn, ...]) -> tuple[tuple, ...]:
+    """Of each instance what its hits depend on beside its place."""
+    seen = {kind.key: [name for name in kind.parameters if not (_has_surface(kind) and name in surfaces.SURFACE)] for kind in kinds}
+    slots = {kind.key: kind.slot for kind in kinds}
+    return tuple((slots[one.kind], one.kind, tuple(one.values[name] for name in seen[one.kind])) for one in named.values())
 
 
 class InstanceTables:
@@ -110,7 +115,7 @@ class InstanceTables:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
         if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan):
             found = meshes.of(plan.scene)
-            files = {**pictures.layers(plan.scene), **(found.roots if found else {})}
+            files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
             rows = [_rows(kind, plan, time, files) for kind in used(plan.scene)]
             tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(used(plan.scene), rows)}
             tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": _nodes([table[:, 0] for table in rows])}
@@ -141,15 +146,20 @@ class InstanceTables:
 
 def anything_moves(plan: Plan) -> bool:
     """Whether any table is another at another time, be it that a sphere turns."""
-    kinds = [(met.instances(plan.scene, slot), kinds) for slot, kinds in _catalogues()]
-    moving = (instance for instances, known in kinds for instance in instances if known[instance.kind].traits.moves)
-    return any(instance.values["path"] != "fixed" or instance.values["turn_rate"] != 0.0 for instance in moving)
+    return any(motion.movers(plan.scene, slot) for slot in met.SLOTS)
 
 
 def _nodes(bounds: list[np.ndarray]) -> np.ndarray:
     """The hierarchy's texels, from the bounding spheres (instances, 4) of each kind. A leaf holds 32 times the instance's number, and its kind's."""
-    spheres = np.concatenate(bounds).astype(float)
-    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(bounds)])
+    return _tree(tuple(own.tobytes() for own in bounds))
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _tree(bounds: tuple[bytes, ...]) -> np.ndarray:
+    """`_nodes`, from the bounding spheres' bytes, float32: they are the same while nothing moves."""
+    kinds = [np.frombuffer(own, np.float32).reshape(-1, 4) for own in bounds]
+    spheres = np.concatenate(kinds).astype(float)
+    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(kinds)])
     there = spheres[:, 3] > 0.0  # not lamps that are not seen
     spheres, number = spheres[there], number[there]
     made = hierarchy.build(spheres[:, :3] - spheres[:, 3:], spheres[:, :3] + spheres[:, 3:])
@@ -179,16 +189,25 @@ def _motion_names(kind: PlugIn) -> tuple[str, ...]:
     return _MOTION if kind.traits.moves else _MOTION[:1]
 
 
-def _rows(kind: PlugIn, plan: Plan, time: float, files: Mapping[str, int]) -> np.ndarray:
+def _rows(kind: PlugIn, plan: Plan, time: float, files: FrozenMap[str, int]) -> np.ndarray:
     """float32 (instances, columns, 4); `files` are the numbers of what file parameters name."""
-    first, (places, length) = 4 * len(_motion_names(kind)), _places(kind)
-    found = [entry for entry in motion.motions(plan.scene, kind.slot, plan.space_time, time) if entry[0].kind == kind.key]
-    rows = np.zeros((len(found), length), np.float32)
-    for row, (instance, here) in zip(rows, found):
-        row[:first] = (*here.centre, here.reach, *here.velocity, 0.0, *here.spin, 0.0, *here.attitude)[:first]
+    own, values = _values(met.named(plan.scene, kind.slot), kind, files)
+    rows, texels = values.copy(), len(_motion_names(kind))
+    rows[:, :texels] = motion.rows(plan.scene, kind.slot, plan.space_time, time)[own, :texels]
+    return rows
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _values(named: Instances, kind: PlugIn, files: FrozenMap[str, int]) -> tuple[np.ndarray, np.ndarray]:
+    """Which of the instances are of `kind`, by their places; and their rows without their motion."""
+    own = [(place, instance) for place, instance in enumerate(named.values()) if instance.kind == kind.key]
+    places, length = _places(kind)
+    rows = np.zeros((len(own), length), np.float32)
+    for row, (_, instance) in zip(rows, own):
         for item, place in places:
             row[place : place + _width(item)] = _numbers(item, instance.values[item.key], files)
-    return rows.reshape(len(found), -1, 4)
+    rows.setflags(write=False)
+    return np.array([place for place, _ in own], int), rows.reshape(len(own), -1, 4)
 
 
 def _numbers(item: Field, value: Value, files: Mapping[str, int]) -> tuple[float, ...]:

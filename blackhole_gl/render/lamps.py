@@ -9,7 +9,7 @@ import numpy as np
 from ..physics import motion
 from ..physics.observer import observe
 from ..plan import Plan
-from ..scene import Instance, catalogue
+from ..scene import Instance, met
 from ..scene.schema import number_of
 from ..shapes import Float
 
@@ -25,16 +25,17 @@ def rows(plan: Plan, time: float) -> Float[np.ndarray, "lamps 2 4"]:
 
     A scene without any is lit from the camera.
     """
-    kinds = catalogue.plug_ins("thing")
-    found = [_row(*entry) for entry in motion.motions(plan.scene, "thing", plan.space_time, time) if kinds[entry[0].kind].traits.shines]
+    shining = {kind.key for kind in met.kinds(plan.scene, "thing") if kind.traits.shines}
+    lit = zip(met.instances(plan.scene, "thing"), motion.rows(plan.scene, "thing", plan.space_time, time)[:, 0]) if shining else ()
+    found = [_row(instance, bound) for instance, bound in lit if instance.kind in shining]
     return np.array(found or [_at_camera(plan)], np.float32)
 
 
-def _row(instance: Instance, here: motion.Motion) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _row(instance: Instance, bound: Float[np.ndarray, " 4"]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     values, colour = instance.values, instance.values["colour"]
     brightness = number_of(values["brightness"])
     light = tuple(brightness * number_of(part) for part in colour) if isinstance(colour, tuple) else ()
-    return (*here.centre, _UNIT_DISTANCE if values["thins_out"] else 0.0), (*light, 0.0)
+    return (*bound[:3], _UNIT_DISTANCE if values["thins_out"] else 0.0), (*light, 0.0)
 
 
 def _at_camera(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from ..scene import Scene, met
+from ..scene import FrozenMap, Scene, met
 from ..scene.files import MESHES
+from ..scene.instances import Instances
+from ..scene.plug_in import PlugIn
 from ..scene.schema import Field
 from . import hierarchy
 from .hierarchy import Hierarchy
@@ -72,14 +75,19 @@ def _made(meshes: list[tuple[str, Mesh]]) -> Meshes:
     return Meshes(roots, _joined(trees).texels(np.concatenate([np.zeros(0, int), *leaves])), _rows(triangles))
 
 
-def _named(scene: Scene) -> dict[str, str] | None:
+def _named(scene: Scene) -> FrozenMap[str, str] | None:
     """Value → key of each mesh that things name."""
+    return _named_in(scene.things, tuple(met.kinds(scene, "thing")))
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _named_in(things: Instances, kinds: tuple[PlugIn, ...]) -> FrozenMap[str, str] | None:
     found: dict[str, str] = {}
-    fields = {kind.key: [item.key for item in kind.parameters.values() if is_mesh(item)] for kind in met.kinds(scene, "thing")}
-    for name, instance in scene.things.items():
+    fields = {kind.key: [item.key for item in kind.parameters.values() if is_mesh(item)] for kind in kinds}
+    for name, instance in things.items():
         for key in fields[instance.kind]:
             found.setdefault(str(instance.values[key]), f"things.{name}.{key}")
-    return found or None
+    return FrozenMap(found) if found else None
 
 
 def _joined(trees: list[Hierarchy]) -> Hierarchy:

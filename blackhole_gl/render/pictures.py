@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 import moderngl
 import numpy as np
@@ -10,6 +11,7 @@ from PIL import Image
 
 from ..scene import Scene, met
 from ..scene.files import PICTURES
+from ..scene.instances import Instances
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field
 from . import picture_files
@@ -43,12 +45,21 @@ def _named(scene: Scene) -> tuple[tuple[str, str], ...]:
     """(key, value) of each picture that things and media name, each picture once, in their order."""
     found: dict[str, str] = {}
     for slot, section in (("thing", "things"), ("medium", "media")):
-        kinds = {kind.key: kind for kind in met.kinds(scene, slot)}
-        for name, instance in getattr(scene, section).items():
-            for item in kinds[instance.kind].parameters.values():
-                value = instance.values[item.key]
-                if is_picture(item) and isinstance(value, str) and value:
-                    found.setdefault(value, f"{section}.{name}.{item.key}")
+        for key, value in _named_in(section, met.named(scene, slot), tuple(met.kinds(scene, slot))):
+            found.setdefault(value, key)
+    return tuple((key, value) for value, key in found.items())
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _named_in(section: str, named: Instances, kinds: tuple[PlugIn, ...]) -> tuple[tuple[str, str], ...]:
+    """(key, value) of each picture that the instances of one section name, each picture once."""
+    found: dict[str, str] = {}
+    fields = {kind.key: [item.key for item in kind.parameters.values() if is_picture(item)] for kind in kinds}
+    for name, instance in named.items():
+        for key in fields[instance.kind]:
+            value = instance.values[key]
+            if isinstance(value, str) and value:
+                found.setdefault(value, f"{section}.{name}.{key}")
     return tuple((key, value) for value, key in found.items())
 
 

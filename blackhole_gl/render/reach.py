@@ -105,8 +105,7 @@ class Reach:
 
 def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
     """A ball about each thing and medium of the plan's scene at scene time `time`, in the order of `instances.key`: centre and radius in r_s."""
-    found = [here for slot in met.SLOTS for _, here in motion.motions(plan.scene, slot, plan.space_time, time)]
-    return np.array([(*here.centre, here.reach) for here in found]).reshape(-1, 4)
+    return np.concatenate([motion.rows(plan.scene, slot, plan.space_time, time)[:, 0] for slot in met.SLOTS])
 
 
 def _shell(plan: Plan) -> tuple[float, float]:

@@ -12,12 +12,13 @@ V = TypeVar("V")
 class FrozenMap(Mapping[K, V]):
     """An immutable mapping in a fixed order, which counts when two of them are compared; its values have to be hashable."""
 
-    __slots__ = ("_hash", "_items", "_values")
+    __slots__ = ("_equal", "_hash", "_items", "_values")
 
     def __init__(self, items: Mapping[K, V] | Iterable[tuple[K, V]] = ()):
         self._values = dict(items)
         self._items = tuple(self._values.items())
         self._hash = hash(self._items)  # once: a scene is a key of several caches in every frame
+        self._equal: object = self  # the last that was found to be: of a thousand instances not all are compared in every frame
 
     def __getitem__(self, key: K) -> V:
         return self._values[key]
@@ -33,7 +34,12 @@ class FrozenMap(Mapping[K, V]):
 
     def __eq__(self, other: object) -> bool:
         if isinstance(other, FrozenMap):
-            return self._hash == other._hash and self._items == other._items
+            if other is self or other is self._equal or other._equal is self:
+                return True
+            if self._hash != other._hash or self._items != other._items:
+                return False
+            self._equal, other._equal = other, self
+            return True
         return self._values == other
 
     def __reduce__(self):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 
 from . import catalogue
 from .frozen import FrozenMap
-from .instances import Instance
+from .instances import Instance, Instances
 from .plug_in import PlugIn
 from .records import Scene
 from .schema import number_of
@@ -16,16 +17,29 @@ from .traits import MetTraits
 
 SLOTS = ("thing", "medium")
 
+SCENES_KEPT = 16
+"""Lots of instances of which is kept what was worked out for all of one: they are the same objects while only the camera moves."""
+
+
+def named(scene: Scene, slot: str) -> Instances:
+    """The scene's instances of the kinds of `slot`, by name."""
+    return scene.things if slot == "thing" else scene.media
+
 
 def instances(scene: Scene, slot: str) -> Iterator[Instance]:
     """The scene's instances of the kinds of `slot`."""
-    yield from (scene.things if slot == "thing" else scene.media).values()
+    yield from named(scene, slot).values()
 
 
 def kinds(scene: Scene, slot: str) -> list[PlugIn]:
     """The kinds of `slot` that the scene has instances of, in the catalogue's order."""
-    used = {instance.kind for instance in instances(scene, slot)}
+    used = _used(named(scene, slot))
     return [plug_in for key, plug_in in catalogue.plug_ins(slot).items() if key in used]
+
+
+@lru_cache(maxsize=SCENES_KEPT)
+def _used(lot: Instances) -> frozenset[str]:
+    return frozenset(instance.kind for instance in lot.values())
 
 
 def is_empty(scene: Scene) -> bool:
@@ -45,13 +59,13 @@ def extent(instance: Instance, traits: MetTraits) -> float:
 
 def reach(scene: Scene) -> float:
     """Radius in r_s about the hole beyond which no part of any of them lies, at any time; 0 where there is none."""
-    found = 0.0
-    for slot in SLOTS:
-        known = catalogue.plug_ins(slot)
-        for instance in instances(scene, slot):
-            traits = known[instance.kind].traits
-            found = max(found, _distance(instance, traits) + extent(instance, traits))
-    return found
+    return max(_reach(named(scene, slot), tuple(kinds(scene, slot))) for slot in SLOTS)
+
+
+@lru_cache(maxsize=SCENES_KEPT)
+def _reach(lot: Instances, used: tuple[PlugIn, ...]) -> float:
+    traits = {kind.key: kind.traits for kind in used}
+    return max((_distance(one, traits[one.kind]) + extent(one, traits[one.kind]) for one in lot.values()), default=0.0)
 
 
 def _distance(instance: Instance, traits: MetTraits) -> float:

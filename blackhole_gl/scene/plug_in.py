@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
@@ -99,7 +99,7 @@ class PlugIn(Generic[T]):
     source: str
     rank: float
     traits: T
-    parameters: Mapping[str, Field]
+    parameters: Mapping[str, Field] = field(hash=False)  # no mapping has one; a kind is a key of what is kept of a scene
     tables: tuple[Table, ...]
     numbers: tuple[Number, ...]
 

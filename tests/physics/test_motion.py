@@ -19,8 +19,7 @@ def _scene(spin: float = 0.9, **values: object) -> Scene:
 
 
 def _motion(scene: Scene, time: float) -> motion.Motion:
-    ((_, found),) = motion.motions(scene, "thing", space_time(scene), time)
-    return found
+    return motion.of(scene.things["moon"], catalogue.plug_ins("thing")["sphere"].traits, space_time(scene), time)
 
 
 @pytest.mark.parametrize("spin", [0.9, 0.0, -0.6])
@@ -78,6 +77,21 @@ def test_what_moves_is_told_from_what_rests_or_only_turns() -> None:
     for values, expected in (({}, False), ({"turn_rate": 1.0}, False), ({"path": "geodesic"}, True), ({"path": "circle"}, True)):
         assert motion.moves(_scene(**values).things["moon"], traits) == expected, "a sphere that turns is met where it was"
     assert not motion.moves(presets.load(["kerr"], {"things.ring.kind": "annulus"}).things["ring"], catalogue.plug_ins("thing")["annulus"].traits)
+
+
+def test_the_rows_of_a_scene_are_each_instance_in_its_place_whether_it_stands_or_moves() -> None:
+    values = {"path": "geodesic", "orbit_radius": 6.0}, {"x": 7.0, "z": 2.0, "turn_deg": 40.0, "axis_tilt_deg": 30.0}, {"y": 5.0, "turn_rate": 0.4}
+    things = {f"things.moon_{k}.{name}": value for k, own in enumerate(values) for name, value in {"kind": "sphere", **own}.items()}
+    scene = presets.load(["kerr"], {"hole.spin": 0.9, **things, "things.ring.kind": "annulus"})
+    where, kinds = space_time(scene), catalogue.plug_ins("thing")
+    for time in (0.0, 3.5):
+        for row, instance in zip(motion.rows(scene, "thing", where, time), scene.things.values(), strict=True):
+            here = motion.of(instance, kinds[instance.kind].traits, where, time)
+            expected = (*here.centre, here.reach), (*here.velocity, 0.0), (*here.spin, 0.0), here.attitude
+            np.testing.assert_array_equal(row, expected)
+    assert [(mover.place, mover.name) for mover in motion.movers(scene, "thing")] == [(0, "moon_0"), (2, "moon_2")]
+    moved = scene.with_values({"things.moon_1.x": 3.0})
+    assert motion.rows(moved, "thing", where, 0.0)[1, 0, 0] == 3.0, "another place is another scene"
 
 
 def test_the_reach_of_a_scene_holds_every_bounding_sphere_at_any_time() -> None:

@@ -16,7 +16,7 @@ from blackhole_gl.render import instances
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.pictures import ARRAY, Pictures
 from blackhole_gl.render.pictures import layers as layers_of
-from blackhole_gl.scene import Scene, SceneError
+from blackhole_gl.scene import FrozenMap, Scene, SceneError
 from tests.unit.kinds import known_kinds  # noqa: F401
 
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
@@ -54,7 +54,7 @@ def test_every_instance_knows_the_layer_of_its_own_picture(pictures: Pictures, t
     np.testing.assert_array_equal(shown[1], np.broadcast_to([0, 1, 0, 1], (4, 8, 4)))
     (kind,) = instances.used(scene)
     place = next(place for item, place in instances._places(kind)[0] if item.key == "image")
-    assert instances._rows(kind, plan(scene), 0.0, layers_of(scene)).reshape(4, -1)[:, place].tolist() == [0, -1, 1, 0]
+    assert instances._rows(kind, plan(scene), 0.0, FrozenMap(layers_of(scene))).reshape(4, -1)[:, place].tolist() == [0, -1, 1, 0]
     text = instances.glsl([kind])
     assert f"uniform sampler2DArray {ARRAY};" in text and f"#define thing_globe_image(i) int(texelFetch(thing_globe_table, ivec2({place // 4}, i)" in text
 

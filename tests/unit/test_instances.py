@@ -112,6 +112,9 @@ def test_the_order_of_a_frozen_map_counts_and_a_plain_dictionary_is_compared_by_
     one, other = FrozenMap({"a": 1, "b": 2}), FrozenMap({"b": 2, "a": 1})
     assert one != other and one == {"b": 2, "a": 1} and one.updated({"c": 3}).without("a") == {"b": 2, "c": 3}
     assert pickle.loads(pickle.dumps(one)) == one and hash(FrozenMap(one)) == hash(one)
+    third, fourth = FrozenMap(one), FrozenMap(one)
+    for pair in ((one, third), (third, fourth), (fourth, one), (one, third)):  # the last comparison is remembered
+        assert pair[0] == pair[1] and pair[0] != other and other != pair[1] and pair[0] != {"a": 1}
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,60 @@
+"""A thousand things: what the host does for a frame does not grow with those that rest."""
+
+from __future__ import annotations
+
+import sys
+from types import FrameType
+
+import numpy as np
+
+from blackhole_gl.render.frame import Renderer
+from blackhole_gl.scene import Scene, presets
+
+SIZE = (32, 18)
+
+
+def _scene(count: int) -> Scene:
+    """So many spheres about the hole, the first of them on an orbit, in a field in which a frame is drawn soon."""
+    rng, values = np.random.default_rng(1), {"rays.lensing": False, "rays.edges": 1}
+    for number in range(count):
+        name = f"things.sphere_{number}"
+        values |= {f"{name}.kind": "sphere", f"{name}.radius": 0.1, **dict(zip((f"{name}.{axis}" for axis in "xyz"), map(float, rng.uniform(-9.0, 9.0, 3))))}
+    return presets.load(["kerr"], values | {"things.sphere_0.path": "geodesic", "things.sphere_0.orbit_radius": 8.0})
+
+
+def _calls(renderer: Renderer, scene: Scene, time: float) -> int:
+    """Functions of Python's that a frame calls, those of C left out."""
+    found = 0
+
+    def count(frame: FrameType, event: str, argument: object) -> None:
+        nonlocal found
+        found += event == "call"
+
+    sys.setprofile(count)
+    try:
+        renderer.render(scene, time, SIZE, progressive=True)
+    finally:
+        sys.setprofile(None)
+    return found
+
+
+def _moving(scene: Scene, frame: int) -> Scene:
+    return scene.with_values({"camera.azimuth_deg": 0.3 * frame})
+
+
+def test_things_that_rest_cost_the_host_nothing_in_a_frame(renderer: Renderer) -> None:
+    """Camera and one sphere of them moving. Each of the 490 further ones is passed by in a list or two; there were 700 calls for each."""
+    calls = {}
+    for count in (10, 500):
+        scene = _scene(count)
+        frames = [_calls(renderer, _moving(scene, frame), 0.1 * frame) for frame in range(6)]
+        calls[count] = min(frames[2:])
+    assert calls[500] < calls[10] + 490 * 3, calls
+
+
+def test_an_equal_scene_read_anew_costs_no_more(renderer: Renderer) -> None:
+    """What is kept of a scene is found by comparing: equal things that are other objects are compared once."""
+    scene, equal = _scene(500), _scene(500)
+    assert scene.things is not equal.things
+    frames = [_calls(renderer, _moving(one, frame), 0.1) for frame, one in enumerate((scene, scene, equal, equal, equal, equal))]
+    assert min(frames[4:]) < 1.1 * frames[1] + 490, frames
