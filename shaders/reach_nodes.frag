@@ -1,5 +1,5 @@
 #version 330 core
-// Rays at every REACH_STEP-th pixel → what becomes of them, and whether they come near any of the balls that things lie in (common/reach.glsl): for
+// Rays at every reach_step-th pixel → what becomes of them, and whether they come near any of the balls that things lie in (common/reach.glsl): for
 // reach_cells.frag. They end on no thing and look for no crossing; those that take more than reach_steps are given up.
 #defines
 #blocks
@@ -16,6 +16,7 @@
 #include "common/reach.glsl"
 
 uniform int reach_steps;
+uniform float reach_step; // pixels from ray to ray
 
 out float node; // fate, and half of one where it comes near
 
@@ -52,7 +53,7 @@ float part_at(Orbit orbit, March m, Path a, Path b, float radius, out Spot spot)
 }
 
 void main() {
-    vec2 pixel = float(REACH_STEP) * (gl_FragCoord.xy - 0.5) + 0.5;
+    vec2 pixel = reach_step * (gl_FragCoord.xy - 0.5) + 0.5;
     RayStart start = ray_start(pixel_direction(picture_place(pixel)));
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);

@@ -11,7 +11,7 @@
 
 uniform usampler2D kinds;
 #if MEETINGS
-uniform sampler2D reached; // 1 for each square of REACH_STEP² pixels that may show a thing
+uniform sampler2D reached; // 1 for each cell that may show a thing
 #endif
 
 layout(location = 0) out uint cell_out;
@@ -52,7 +52,7 @@ void main() {
     vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
 #if MEETINGS
-    bool things = texelFetch(reached, ivec2(gl_FragCoord.xy) * REFINE_STEP / REACH_STEP, 0).r > 0.0;
+    bool things = texelFetch(reached, ivec2(gl_FragCoord.xy), 0).r > 0.0;
 #else
     const bool things = false;
 #endif

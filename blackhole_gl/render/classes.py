@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -30,9 +30,13 @@ EVERYWHERE = Where("1", 0.5)
 OWN_RAYS = Where(">", PixelClass.OWN_RAY.depth_beyond)
 
 
-def own_rays(plan: Plan) -> tuple[Where, ...]:
-    """The pixels of a refined map that are traced themselves."""
-    return (OWN_RAYS, THINGS) if plan.meetings else (OWN_RAYS,)
+NO_THINGS: Mapping[str, int] = {"MEETINGS": 0}
+"""The switches of programs for pixels and rays that show no thing or medium, and for which none was written."""
+
+
+def own_rays(plan: Plan) -> tuple[tuple[Where, Mapping[str, int]], ...]:
+    """The pixels of a refined map that are traced themselves, and the switches of what reads them."""
+    return ((OWN_RAYS, NO_THINGS), (THINGS, {})) if plan.meetings else ((OWN_RAYS, {}),)
 
 
 @contextmanager

@@ -49,14 +49,14 @@ class EdgePixels:
         if self._own is None or self._classes is not classes:
             self.release()
             self._own, self._classes = marks_target(self._ctx, classes.size, classes), classes
-        marks = self._programs.get("edge_marks.frag", inputs)
-        marks.sample(hit_map.samplers())
-        set_hiding(marks)
         frame = self._own.frame
         frame.use()
         frame.depth_mask = False
         frame.clear(1.0, 1.0)  # no ray
-        for where in own_rays(inputs.plan):
+        for where, switches in own_rays(inputs.plan):
+            marks = self._programs.get("edge_marks.frag", inputs, switches)
+            marks.sample(hit_map.samplers())
+            set_hiding(marks)
             with drawn(self._ctx, marks, where):
                 marks.draw()
         return self._own.texture

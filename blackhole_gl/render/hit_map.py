@@ -15,7 +15,7 @@ import numpy as np
 from ..physics.observer import cos_sin_deg
 from ..plan import REACH_STEP, REFINE_STEP, Plan
 from . import hit_texels, instances, reach, refinement
-from .classes import OWN_RAYS, THINGS
+from .classes import NO_THINGS, OWN_RAYS, THINGS
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instance_numbers import Number
@@ -69,9 +69,6 @@ class FreshBlocks:
     others: tuple[Squares, ...]
     changed: Squares | None
 
-
-# Rays that end on nothing but the hole: those between which hits are interpolated.
-_ON_NOTHING = {"MEETINGS": 0}
 
 # Share of a picture beyond which changed squares are not worth their own draw.
 _MOST_CHANGED = 0.5
@@ -166,11 +163,11 @@ class HitMap:
         moved = [k for k, (old, new) in enumerate(zip(before.key, now.key)) if old != new]
         size = inputs.size
         if not moved:
-            return Squares.of(np.empty((0, 2), int), REACH_STEP, size)
+            return Squares.of(np.empty((0, 2), int), REFINE_STEP, size)
         if not inputs.plan.reach_steps or min(size) < REACH_STEP:
             return None
         found = self._reach.squares(inputs, np.concatenate([before.balls[moved], now.balls[moved]]))
-        return found if len(found) * REACH_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
+        return found if len(found) * REFINE_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
 
     def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, fresh: FreshBlocks) -> None:
         """Traces the rays of `blocks`, of the picture of `inputs`, that are `fresh`."""
@@ -179,7 +176,7 @@ class HitMap:
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
         if fresh.changed is None:
             target.clear()
-        for switches, squares in (({}, fresh.seeking), (_ON_NOTHING | {"NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
+        for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
             rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS | switches)
             rays.sample(blocks.samplers)
             rays.set(block_side=float(blocks.side))
@@ -263,7 +260,7 @@ class HitMap:
         inputs = rays.inputs
         if inputs.plan.meetings:
             reached = self._reach.draw(inputs, self._met.balls)
-            coarse = self._programs.get("trace.frag", inputs, _ON_NOTHING)
+            coarse = self._programs.get("trace.frag", inputs, NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached)
             self._bind_tables(coarse)

@@ -8,9 +8,10 @@ import moderngl
 import numpy as np
 
 from ..physics import motion
-from ..plan import REACH_STEP, Plan
+from ..plan import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
 from ..shapes import Float
+from .classes import Where, drawn
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
 from .squares import Squares
@@ -20,6 +21,8 @@ from .target import Target
 MOST_BALLS = 24
 """Balls that rays are held against; more are put together in larger ones."""
 
+_MARKED = Where(">", 0.5)  # by shaders/reach_marks.frag
+
 ALONE = {"ORDERS": 0, "MEETINGS": 0}
 """The switches of rays that end on nothing and look for no crossing."""
 
@@ -27,16 +30,49 @@ ALONE = {"ORDERS": 0, "MEETINGS": 0}
 _INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
-@dataclass(frozen=True, eq=False)
-class _Made:
-    """Of a picture's size: the nodes, and for each cell between them whether it is near, R8."""
+FINER = {"REACH_FINER": 1}
+"""The switch of the program that tells of cells what is first told of squares."""
 
-    size: tuple[int, int]
+
+@dataclass(frozen=True, eq=False)
+class _Level:
+    """Nodes, and for each cell between them whether it is near, R8.
+
+    Attributes:
+        depth: of the nodes, by which they are drawn.
+        marks: draws into `depth`.
+    """
+
     nodes: Target
     cells: Target
+    depth: moderngl.Texture
+    marks: moderngl.Framebuffer
+
+    @classmethod
+    def of(cls, ctx: moderngl.Context, size: tuple[int, int], step: int) -> _Level:
+        """Nodes `step` pixels apart, for a picture of `size`."""
+        cells = -(-size[0] // step), -(-size[1] // step)
+        nodes = cells[0] + 1, cells[1] + 1
+        depth = ctx.depth_texture(nodes)
+        return cls(
+            Target.of(ctx, [_texture(ctx, nodes, "f4")], depth), Target.of(ctx, [_texture(ctx, cells, "f1")]), depth, ctx.framebuffer([], depth)
+        )
 
     def release(self) -> None:
-        self.nodes.release()
+        for item in (self.nodes, self.cells, self.marks, self.depth):
+            item.release()
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """Of a picture's size: squares, and the finer cells in those that are near."""
+
+    size: tuple[int, int]
+    squares: _Level
+    cells: _Level
+
+    def release(self) -> None:
+        self.squares.release()
         self.cells.release()
 
 
@@ -53,26 +89,49 @@ class Reach:
         self._balls: moderngl.Texture | None = None
 
     def draw(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
-        """R8, 1 for each square of ``REACH_STEP``² pixels that may show anything within `balls`, centre and radius each in r_s in the plan's frame."""
+        """R8, 1 for each cell of ``REFINE_STEP``² pixels that may show anything within `balls`, centre and radius each in r_s in the plan's frame."""
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_nodes.frag", inputs, ALONE)
         few = gathered(balls, MOST_BALLS)
         self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
-        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
-        made.nodes.frame.use()
+        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan), reach_step=float(REACH_STEP))
+        made.squares.nodes.frame.use()
         nodes.draw()
-        cells = self._programs.get("reach_cells.frag", inputs)
-        cells.sample({"nodes": made.nodes.texture})
-        made.cells.frame.use()
+        self._judge(inputs, made.squares, None)
+        self._mark(inputs, made)
+        self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
+        nodes.set(reach_step=float(REFINE_STEP))
+        frame = made.cells.nodes.frame
+        frame.use()
+        frame.depth_mask = False
+        with drawn(self._ctx, nodes, _MARKED):
+            nodes.draw()
+        self._judge(inputs, made.cells, made.squares.cells.texture)
+        return made.cells.cells.texture
+
+    def _mark(self, inputs: FrameInputs, made: _Made) -> None:
+        """Marks the nodes of the cells in squares that are near."""
+        marks = self._programs.get("reach_marks.frag", inputs)
+        marks.sample({"found_first": made.squares.cells.texture})
+        made.cells.marks.use()
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"  # always
+        marks.draw()
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+
+    def _judge(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture | None) -> None:
+        cells = self._programs.get("reach_cells.frag", inputs, {} if found_first is None else FINER)
+        cells.sample({"nodes": level.nodes.texture} | ({} if found_first is None else {"found_first": found_first}))
+        level.cells.frame.use()
         cells.draw()
-        return made.cells.texture
 
     def squares(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> Squares:
-        """Those squares, listed. Waits for the GPU."""
+        """Those cells, listed. Waits for the GPU."""
         texture = self.draw(inputs, balls)
         found = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width)
         rows, columns = np.nonzero(found)
-        return Squares.of(np.stack([columns, rows], axis=-1), REACH_STEP, inputs.size)
+        return Squares.of(np.stack([columns, rows], axis=-1), REFINE_STEP, inputs.size)
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -85,15 +144,8 @@ class Reach:
         if self._made is None or self._made.size != size:
             if self._made is not None:
                 self._made.release()
-            cells = -(-size[0] // REACH_STEP), -(-size[1] // REACH_STEP)
-            self._made = _Made(size, self._target((cells[0] + 1, cells[1] + 1), 1, "f4"), self._target(cells, 1, "f1"))
+            self._made = _Made(size, _Level.of(self._ctx, size, REACH_STEP), _Level.of(self._ctx, size, REFINE_STEP))
         return self._made
-
-    def _target(self, size: tuple[int, int], components: int, dtype: str) -> Target:
-        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
-        texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        texture.repeat_x = texture.repeat_y = False
-        return Target.of(self._ctx, [texture])
 
     def _table(self, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
         if self._balls is None:
@@ -101,6 +153,13 @@ class Reach:
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
         self._balls.write(balls.astype(np.float32).tobytes(), (0, 0, len(balls), 1))
         return self._balls
+
+
+def _texture(ctx: moderngl.Context, size: tuple[int, int], dtype: str) -> moderngl.Texture:
+    texture = ctx.texture(size, 1, dtype=dtype, alignment=1)
+    texture.filter = moderngl.NEAREST, moderngl.NEAREST
+    texture.repeat_x = texture.repeat_y = False
+    return texture
 
 
 def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:

@@ -77,7 +77,7 @@ class CoarseGrid:
 
         Args:
             rays: end on nothing but the hole.
-            reached: 1 for each square of ``REACH_STEP``² pixels that may show a thing; None in a scene without.
+            reached: 1 for each cell that may show a thing; None in a scene without.
         """
         inputs = rays.inputs
         made = self._targets(inputs.size, textures(inputs.plan.orders))

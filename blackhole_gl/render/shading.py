@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 
-from .classes import EVERYWHERE, FLAT_SKY, MATTER, SKY, THINGS, Where
+from .classes import EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, SKY, THINGS, Where
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
@@ -15,8 +17,6 @@ from .squares import Squares
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
-
-_NO_THINGS = {"MEETINGS": 0}  # for pixels that show none
 
 _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
@@ -62,14 +62,14 @@ class ShadePass:
         frame.use()
         ctx.enable(moderngl.BLEND)
         if inputs.plan.orders:
-            self._draw_matter(inputs, hit_map, MATTER, _NO_THINGS, moderngl.SRC_ALPHA)
+            self._draw_matter(inputs, hit_map, MATTER, NO_THINGS, moderngl.SRC_ALPHA)
         if inputs.plan.meetings:
             self._draw_matter(inputs, hit_map, THINGS, {}, _SECOND_OUTPUT)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
 
-    def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: dict[str, int], behind: int) -> None:
+    def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: Mapping[str, int], behind: int) -> None:
         """The disk, things and media, and what they let through of the sky `behind` them: of all colours alike, or of each its own.
 
         Alpha becomes the share of the sky's light that is left, where stars may be.

@@ -12,7 +12,7 @@ from functools import cache
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
 from ..physics import observer, shear
-from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REACH_STEP, REFINE_STEP, Plan
+from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
 from . import instances, pictures
@@ -168,7 +168,7 @@ def scene_values(plan: Plan) -> dict[str, object]:
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
-    found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_STEP": REACH_STEP}
+    found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, **instances.switches(instances.used(plan.scene))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}

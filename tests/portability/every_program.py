@@ -11,7 +11,7 @@ from blackhole_gl.render.diagnostics import most_accurate, prepared
 from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
-from blackhole_gl.render.reach import ALONE
+from blackhole_gl.render.reach import ALONE, FINER
 from blackhole_gl.render.uniforms import stars_a_pixel
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
@@ -124,7 +124,8 @@ def _of_instances() -> Iterator[Wanted]:
                 yield path, f"{kind} by {model}", made, switches
             if made.integrator is not None:  # rays in closed form are not looked for coarsely
                 yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
-                yield "reach_cells.frag", f"{kind} by {model}", made, {}
+                yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
+                yield "reach_marks.frag", f"{kind} by {model}", made, {}
 
 
 def _of_views() -> Iterator[Wanted]:

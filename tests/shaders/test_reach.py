@@ -8,7 +8,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import REACH_STEP, plan
+from blackhole_gl.plan import plan
 from blackhole_gl.render import edge_pixels, reach
 from blackhole_gl.render.edge_blocks import EdgeBlocks
 from blackhole_gl.render.frame import Renderer
@@ -108,13 +108,13 @@ def test_a_sphere_that_moves_before_a_resting_camera_leaves_the_exact_map_bit_fo
 
 
 def test_it_costs_rays_where_it_is_seen_and_was_seen_alone(renderer: Renderer) -> None:
-    """Those of its squares, and of those on the shadow's edge, where images of all there is crowd: a third of this small picture at most."""
+    """Those of its cells, and of those on the shadow's edge, where images of all there is crowd: a twentieth of this small picture at most."""
     scene = _ten()
     _traced(renderer, scene, progressive=False)
     before = renderer.hit_map.generation
     renderer.hit_map.trace(_inputs(scene, 1.0))
     changed = renderer.hit_map.changed_since(before)
-    assert changed is not None and 0 < len(changed) * REACH_STEP**2 < 0.33 * SIZE[0] * SIZE[1]
+    assert changed is not None and 0 < len(changed) * changed.side**2 < 0.05 * SIZE[0] * SIZE[1]
     assert renderer.hit_map.changed_since(before - 1) is None
     assert not renderer.hit_map.trace(_inputs(scene, 1.0)), "nothing has moved"
 
@@ -176,6 +176,7 @@ def test_rays_at_edges_beside_no_thing_need_not_look_for_any(renderer: Renderer,
     """
     all_look, scene = Renderer(renderer.ctx), _ten(**{"rays.edges": 2})
     told, different, edges = edge_pixels.beside_things, 0, 0
+    renderer.hit_map.forget()
     for turn in range(0, 100, 10):
         view, pictures = scene.with_values({"camera.azimuth_deg": 3.6 * turn, "camera.inclination_deg": 60.0 + 0.3 * turn}), []
         for drawn_by, rule in ((renderer, told), (all_look, lambda marks, pixels: np.ones(len(pixels), bool))):
@@ -187,6 +188,18 @@ def test_rays_at_edges_beside_no_thing_need_not_look_for_any(renderer: Renderer,
         edges += len(renderer.edges.pixels)
     all_look.release()
     assert 0 < different < 0.01 * edges
+
+
+def test_what_was_seen_before_leaves_no_edges_in_the_next_view(renderer: Renderer) -> None:
+    """Cells that show no thing have none written: what the map held there before, of another view, is not looked at."""
+    scene, fresh = _ten(**{"rays.edges": 2}), Renderer(renderer.ctx)
+    turned = scene.with_values({"camera.azimuth_deg": 30.0})
+    renderer.hit_map.forget()
+    renderer.render(scene, 0.0, SIZE)
+    for drawn_by in (renderer, fresh):
+        drawn_by.render(turned, 0.0, SIZE, progressive=True)
+    np.testing.assert_array_equal(renderer.edges.pixels, fresh.edges.pixels)
+    fresh.release()
 
 
 MOON = _sphere("moon", 0.5)
