@@ -16,25 +16,25 @@ from .state import WindowState
 
 
 class LabelOverlay:
-    """Remembers what the labels that are there are of."""
+    """Remembers the labels of the last frame, and what they are of."""
 
     def __init__(self) -> None:
         self._of: tuple[Scene, float] | None = None
+        self._shown = labels.Labels()
 
     def draw(self, state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
-        """Draws the labels over the picture, whose top left is `corner`. While the camera moves only those that are there, as where it turns about the spin
-        axis: closed forms take longer than a frame."""
+        """Draws the labels over the picture, whose top left is `corner`; while the camera moves they follow those of the frame before."""
         if not state.scene.post.labels or size[1] < 1.0:
             return
-        of = labels.shape_of(state.scene), size[0] / size[1]
-        if state.camera_moves and of != self._of:
-            return
-        try:
-            shown = labels.of(state.scene, size[0] / size[1])
-        except ValueError:  # the picture fails for the same reason, which is told
-            return
-        self._of = of
-        _draw(shown, corner, size)
+        aspect = size[0] / size[1]
+        of = labels.shape_of(state.scene), aspect
+        if of != self._of:
+            try:
+                self._shown = labels.after(self._shown, state.scene, aspect) if state.camera_moves else labels.of(state.scene, aspect)
+            except ValueError:  # the picture fails for the same reason, which is told
+                return
+            self._of = of
+        _draw(self._shown, corner, size)
 
 
 def _draw(shown: labels.Labels, corner: Corner, size: tuple[float, float]) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..shapes import Bool, Float, Int
 from .deflection import carlson_rf
-from .observer import Observer, local_directions, parallel_rays
-from .relativity import critical_curve, horizon_radius, shadow_angle
+from .observer import Observer, local_directions, parallel_rays, screen_angles
+from .relativity import critical_curve, horizon_radius
 
 Array = np.ndarray
 
@@ -23,6 +23,10 @@ _HALVINGS = 4  # of τ, until Laurent's series of ℘ converges quickly
 _TERMS = 12
 _LOOKS = 24  # along a ray, for its end: the shortest way through the hole or infinity and back takes several of them
 _BISECTIONS = 20  # of half a turn: 3e-6 rad, an eighth of a pixel where a picture 720 high shows a degree
+_SECANTS = 5
+_LONGEST_SECANT = 0.7
+_NEAR, _SETTLED = 1e-3, 1e-4  # of a radius, and of the shadow: secants whose last step is so short end far closer
+_EDGE_POINTS = 720
 
 
 @dataclass(frozen=True)
@@ -76,38 +80,109 @@ def crossing_radius(rays: Light, order: Int[Array, "*#rays"]) -> Float[Array, "*
 
 
 def circles(
-    observer: Observer, radii: Float[Array, " circles"], orders: Int[Array, " circles"], angles: Float[Array, " N"]
-) -> Float[Array, "circles N 3"]:
-    """Local directions (C, N, 3) in which circles of `radii` (r_s) are seen, each by a crossing of its own, at `angles` on the screen from right towards up.
+    observer: Observer,
+    radii: Float[Array, " circles"],
+    orders: Int[Array, " circles"],
+    angles: Float[Array, " N"],
+    guess: Float[Array, "circles N"] | None = None,
+) -> Float[Array, "circles N"]:
+    """How far from the hole's centre (`directions`) circles of `radii` (r_s) are seen, each by a crossing of its own, at `angles` on the screen.
+
+    Args:
+        guess: about where; from there a fifth of the time is enough. Where it does not lead to the place it is not used.
 
     Raises:
         ValueError: the camera is not outside the circles.
     """
     if observer.w * 2.0 * radii.max() >= 1.0:
         raise ValueError(f"the image of the circle r = {radii.max():g} r_s is asked for from r = {0.5 / observer.w:g} r_s; allowed is a camera outside of it")
-    radius, order = radii[:, None], orders[:, None]
-    low = np.zeros((len(radii), len(angles)))
-    high = low + (4.0 * radius + 20.0 if observer.w == 0.0 else math.pi)
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (low + high)
-        inside = crossing_radius(light(observer, _directions(observer, middle, angles)), order) < radius
-        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
-    return _directions(observer, 0.5 * (low + high), angles)
+    radius, order, angle = (values.ravel() for values in np.broadcast_arrays(radii[:, None], orders[:, None], angles))
+    if guess is None:
+        return _bisected(observer, radius, order, angle).reshape(len(radii), -1)
+    found, missed = _refined(observer, radius, order, angle, guess.ravel(), np.broadcast_to(shadow_edge(observer, angles), guess.shape).ravel())
+    if missed.any() and not missed.all():  # where an image crosses the critical curve: from its neighbours, and from the centre
+        places = np.arange(len(found))
+        beside = np.interp(places[missed], places[~missed], found[~missed])
+        found[missed], again = _refined(observer, radius[missed], order[missed], angle[missed], beside, np.zeros(len(beside)))
+        missed[missed] = again
+    if missed.any():
+        found[missed] = _bisected(observer, radius[missed], order[missed], angle[missed])
+    return found.reshape(guess.shape)
 
 
-def shadow_edge(observer: Observer, angles: Float[Array, " N"]) -> Float[Array, "N 3"]:
-    """Local directions (N, 3) of the critical curve, closed: at `angles` on the screen, or for a far observer as many points as there are angles."""
-    theta = math.atan2(math.hypot(observer.n[0], observer.n[1]), observer.n[2])
+def shadow_edge(observer: Observer, angles: Float[Array, " N"]) -> Float[Array, " N"]:
+    """How far from the hole's centre (`directions`) the critical curve is seen at `angles` on the screen.
+
+    The constants of light on spherical orbits that come to the camera are those that a far observer at its inclination would see on its own critical curve;
+    w' is then a root of the radial equation: inwards where the camera is outside of the orbit, where the equation's right-hand side falls with w.
+    """
+    cosine, sine = float(observer.n[2]), math.hypot(observer.n[0], observer.n[1])
+    aside, up = critical_curve(observer.spin, math.atan2(sine, cosine), _EDGE_POINTS)
     if observer.w == 0.0:
-        return parallel_rays(*critical_curve(observer.spin, theta, len(angles)))
-    return local_directions(shadow_angle(angles, 0.5 / observer.w, theta, observer.spin, observer.kind), angles)
+        away, around = np.hypot(aside, up), np.arctan2(up, aside)
+    else:
+        a, lam, w = observer.spin, -sine * aside, observer.w
+        eta = up**2 + cosine**2 * (aside**2 - a**2)
+        c2, c3, c4 = a * a - lam**2 - eta, 2.0 * ((lam - a) ** 2 + eta), -a * a * eta
+        square, slope = 1.0 + w * w * (c2 + w * (c3 + w * c4)), w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4))
+        w_rate = -np.sign(slope) * np.sqrt(np.maximum(square, 0.0))
+        seen = np.linalg.solve(observer.tetrad, np.stack([np.ones_like(lam), w_rate, -up, aside]))
+        away, around = screen_angles((seen[1:] / seen[0]).T)
+    return _along(angles, around, away)
 
 
-def _directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Array, " N"]) -> Float[Array, "*at N 3"]:
-    """Directions `away` from the hole's centre: radians, or M for a far observer."""
+def directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Array, " N"]) -> Float[Array, "*at N 3"]:
+    """Local directions (…, 3) at `angles` on the screen, from right towards up, `away` from the hole's centre: radians, or M for a far observer."""
     if observer.w == 0.0:
         return parallel_rays(away * np.cos(angles), away * np.sin(angles))
     return local_directions(away, angles)
+
+
+def _along(angles: Float[Array, " N"], around: Float[Array, " M"], away: Float[Array, " M"]) -> Float[Array, " N"]:
+    """How far away the polygon of the points (`around`, `away`) in polar coordinates, which goes once round the origin, is at `angles`."""
+    order = np.argsort(around)
+    x, y = away[order] * np.cos(around[order]), away[order] * np.sin(around[order])
+    turned = (angles - around[order[0]]) % (2.0 * math.pi) + around[order[0]]
+    first = np.searchsorted(around[order], turned, side="right") - 1
+    second = (first + 1) % len(x)
+    return (x[first] * y[second] - y[first] * x[second]) / (np.cos(angles) * (y[second] - y[first]) - np.sin(angles) * (x[second] - x[first]))
+
+
+def _bisected(observer: Observer, radius: Float[Array, " K"], order: Int[Array, " K"], angle: Float[Array, " K"]) -> Float[Array, " K"]:
+    """`circles` for places listed one by one."""
+    low = np.zeros(len(radius))
+    high = low + (4.0 * radius + 20.0 if observer.w == 0.0 else math.pi)
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        inside = crossing_radius(light(observer, directions(observer, middle, angle)), order) < radius
+        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    return 0.5 * (low + high)
+
+
+def _refined(
+    observer: Observer, radius: Float[Array, " K"], order: Int[Array, " K"], angle: Float[Array, " K"], guess: Float[Array, " K"], base: Float[Array, " K"]
+) -> tuple[Float[Array, " K"], Bool[Array, " K"]]:
+    """`circles` by secants from a guess, for places listed one by one, and where they did not lead there.
+
+    In the logarithm of the distance from `base`: beside the critical curve a crossing's radius runs through all its values in a like stretch at every order.
+    """
+
+    def miss(distance: Float[Array, " K"]) -> Float[Array, " K"]:
+        rays = light(observer, directions(observer, base + distance, angle))
+        return _inverse_radius(rays, _crossing_time(rays, order)[..., None])[..., 0] - 0.5 / radius
+
+    with np.errstate(all="ignore"):  # what leads nowhere is told
+        before = guess - base
+        before_missed, now = miss(before), 1.01 * before
+        for _ in range(_SECANTS):
+            missed = miss(now)
+            step = -missed * np.log(now / before) / (missed - before_missed)
+            step = np.clip(np.where(np.isfinite(step), step, 0.0), -_LONGEST_SECANT, _LONGEST_SECANT)
+            before, before_missed, now = now, missed, now * np.exp(step)
+        found = base + now
+        there = np.abs(crossing_radius(light(observer, directions(observer, found, angle)), order) / radius - 1.0) < _NEAR
+        there &= np.abs(now - before) < _SETTLED * found
+    return found, ~there
 
 
 def _crossing_time(rays: Light, order: Int[Array, "*#rays"]) -> Float[Array, "*rays"]:

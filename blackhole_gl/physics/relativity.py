@@ -296,17 +296,12 @@ def _visible_orbits(spin: float, theta: float) -> tuple[float, float]:
     cosine, sine = np.cos(theta), np.sin(theta)
     middle = _axis_orbit(spin)
     ends = [float(_photon_orbit_offset(np.asarray(x))) / spin for x in (spin, -spin)]
-    limits = []
-    for end in sorted(ends):
-        inside, outside = middle, end
-        for _ in range(100):
-            trial = 0.5 * (inside + outside)
-            if _beta_squared(trial, spin, cosine, sine) >= 0.0:
-                inside = trial
-            else:
-                outside = trial
-        limits.append(inside)
-    return limits[0], limits[1]
+    inside, outside = np.full(2, middle), np.sort(ends)
+    for _ in range(60):
+        trial = 0.5 * (inside + outside)
+        seen = _beta_squared(trial, spin, cosine, sine) >= 0.0
+        inside, outside = np.where(seen, trial, inside), np.where(seen, outside, trial)
+    return float(inside[0]), float(inside[1])
 
 
 def _barrier_offset(a2: Array, a_lambda: Array) -> Array:

@@ -61,17 +61,34 @@ class Name:
         return self.place[0] < self.at[0]
 
 
+@dataclass(frozen=True, eq=False)
+class Outlines:
+    """Where an observer sees the critical curve and circles of the disk's plane at `_Maker.angles`, as `lensed_circles` has them.
+
+    Attributes:
+        edge: of the critical curve, float64 (N,).
+        circles: (radius in r_s, order of the crossing) of each circle.
+        away: of the circles, float64 (circles, N).
+    """
+
+    edge: Float[np.ndarray, " N"]
+    circles: tuple[tuple[float, int], ...]
+    away: Float[np.ndarray, "circles N"]
+
+
 @dataclass(frozen=True)
 class Labels:
     """What is drawn over a picture.
 
     Attributes:
         note: why there is nothing, where there is nothing.
+        outlines: what the curves were made from, where there are any.
     """
 
     curves: tuple[Curve, ...] = ()
     names: tuple[Name, ...] = ()
     note: str = ""
+    outlines: Outlines | None = None
 
 
 def of(scene: Scene, aspect: float) -> Labels:
@@ -83,6 +100,15 @@ def of(scene: Scene, aspect: float) -> Labels:
     return _of(shape_of(scene), aspect)
 
 
+def after(before: Labels, scene: Scene, aspect: float) -> Labels:
+    """What `of` gives, sooner where `scene` is much like that of `before`, as from frame to frame of a camera that moves.
+
+    Raises:
+        As `of`.
+    """
+    return _made(shape_of(scene), aspect, before.outlines)
+
+
 def shape_of(scene: Scene) -> Scene:
     """`scene` with nothing but what labels depend on, so that a slider of colours, or a turn about the axis, finds those that are there."""
     disk, bare = scene.disk, Scene()
@@ -92,9 +118,13 @@ def shape_of(scene: Scene) -> Scene:
 
 @lru_cache(maxsize=4)
 def _of(scene: Scene, aspect: float) -> Labels:
+    return _made(scene, aspect, None)
+
+
+def _made(scene: Scene, aspect: float, near: Outlines | None) -> Labels:
     plan = make_plan(scene)
     why = _why_not(plan)
-    return Labels(note=why) if why else _Maker(plan, observe(scene), aspect).labels()
+    return Labels(note=why) if why else _Maker(plan, observe(scene), aspect, near).labels()
 
 
 def places(observer: Observer, scene: Scene, aspect: float, directions: Float[np.ndarray, "*at 3"]) -> Float[np.ndarray, "*at 2"]:
@@ -116,50 +146,61 @@ def _why_not(plan: Plan) -> str:
 
 
 class _Maker:
-    """Puts the labels of one picture together."""
+    """Puts the labels of one picture together.
 
-    def __init__(self, plan: Plan, observer: Observer, aspect: float):
+    Args:
+        near: outlines of a scene that is much like it.
+    """
+
+    def __init__(self, plan: Plan, observer: Observer, aspect: float, near: Outlines | None):
         self._plan, self._observer, self._aspect = plan, observer, aspect
         self._angles = np.linspace(0.0, 2.0 * np.pi, _POINTS + 1)
         self._hole = self._place(_towards_hole())
+        self._isco = space_time(plan.scene).isco_radius(plan.scene.disk.orbit)
+        self._outlines = self._outlined(near)
 
     def labels(self) -> Labels:
         """All of them."""
-        edge = self._closed(lensed_circles.shadow_edge(self._observer, self._angles[:-1]))
+        edge = self._place(self._directions(self._outlines.edge))
         curves, named = [Curve(edge, WHITE)], [("shadow, inside the critical curve", self._outermost(edge, 62.0), 62.0, WHITE)]
-        for text, directions, at_deg, colour in self._circles():
-            line = self._place(directions)
-            curves.append(Curve(line, colour))
-            named.append((text, self._outermost(line, at_deg), at_deg, colour))
+        for text, circle, at_deg, colour in self._named_circles():
+            if circle in self._outlines.circles:
+                line = self._place(self._seen(circle))
+                curves.append(Curve(line, colour))
+                named.append((text, self._outermost(line, at_deg), at_deg, colour))
         named += self._sides()
         named.append(("centre of the hole", self._hole, 270.0, WHITE))
         reach = _BESIDE + max(float(np.nanmax(np.linalg.norm(curve.places - self._hole, axis=-1), initial=0.0)) for curve in curves)
         found = [self._name(text, at, angle, colour, reach) for text, at, angle, colour in named]
-        return Labels(tuple(curves), tuple(_apart(name for name in found if name is not None)))
+        return Labels(tuple(curves), tuple(_apart(name for name in found if name is not None)), outlines=self._outlines)
 
-    def _circles(self) -> Iterator[tuple[str, Float[np.ndarray, "N 3"], float, Colour]]:
-        """(name, local directions, angle of the name on the screen, colour) of the images of circles in the disk's plane."""
-        scene, where = self._plan.scene, space_time(self._plan.scene)
-        isco = where.isco_radius(scene.disk.orbit)
-        wanted = [(f"innermost stable orbit (ISCO), r = {isco:.3g} r_s", isco, 0, 118.0, AMBER)]
+    def _named_circles(self) -> list[tuple[str, tuple[float, int], float, Colour]]:
+        """(name, circle, angle of the name on the screen, colour) of the circles in the disk's plane that are outlined, seen from far enough."""
         rings = ("first ring (n = 1)", 36.0, GREEN), ("second ring (n = 2)", 12.0, BLUE)
-        wanted += [(text, self._plan.disk_inner, order, angle, colour) for order, (text, angle, colour) in enumerate(rings, 1) if order < self._plan.orders]
-        wanted = [item for item in wanted if 2.0 * item[1] * self._observer.w < 1.0]
-        if not wanted:
-            return
-        directions = lensed_circles.circles(
-            self._observer, np.array([item[1] for item in wanted]), np.array([item[2] for item in wanted]), self._angles
-        )
-        for (text, _, _, angle, colour), line in zip(wanted, directions):
-            yield text, line, angle, colour
+        found = [(f"innermost stable orbit (ISCO), r = {self._isco:.3g} r_s", (self._isco, 0), 118.0, AMBER)]
+        return found + [
+            (text, (self._plan.disk_inner, order), angle, colour) for order, (text, angle, colour) in enumerate(rings, 1) if order < self._plan.orders
+        ]
+
+    def _outlined(self, near: Outlines | None) -> Outlines:
+        edge = lensed_circles.shadow_edge(self._observer, self._angles)
+        wanted = [circle for _, circle, _, _ in self._named_circles()] + [(self._plan.disk_inner, 0)] * self._plan.scene.disk.enabled
+        circles = tuple(circle for circle in dict.fromkeys(wanted) if 2.0 * circle[0] * self._observer.w < 1.0)
+        if not circles:
+            return Outlines(edge, (), np.empty((0, len(edge))))
+        radii, orders = (np.array(column) for column in zip(*circles))
+        # Beside the critical curve, and in its size, an image stays much where it is.
+        alike = near is not None and [order for _, order in near.circles] == list(orders)
+        guess = near.away * (edge / near.edge) if near is not None and alike else None
+        return Outlines(edge, circles, lensed_circles.circles(self._observer, radii, orders, self._angles, guess))
 
     def _sides(self) -> Iterator[tuple[str, Float[np.ndarray, " 2"], float, Colour]]:
         """(name, place, angle, colour) of the approaching and the receding side of the disk's inner edge."""
         plan, observer = self._plan, self._observer
         inner, orbit = plan.disk_inner, plan.scene.disk.orbit
-        if not plan.scene.disk.enabled or 2.0 * inner * observer.w >= 1.0:
+        if not plan.scene.disk.enabled or (inner, 0) not in self._outlines.circles:
             return
-        (directions,) = lensed_circles.circles(observer, np.array([inner]), np.array([0]), self._angles)
+        directions = self._seen((inner, 0))
         rays = lensed_circles.light(observer, directions)
         g = relativity.circular_orbit_g(inner, rays.lam, plan.space_time.spin, orbit) / rays.energy
         for text, index, colour in (("approaching", int(np.nanargmax(g)), BLUE), ("receding", int(np.nanargmin(g)), AMBER)):
@@ -167,11 +208,14 @@ class _Maker:
             away = at - self._hole
             yield f"{text} side, g = {g[index]:.2f}", at, math.degrees(math.atan2(-away[1], away[0])), colour
 
+    def _seen(self, circle: tuple[float, int]) -> Float[np.ndarray, "N 3"]:
+        return self._directions(self._outlines.away[self._outlines.circles.index(circle)])
+
+    def _directions(self, away: Float[np.ndarray, " N"]) -> Float[np.ndarray, "N 3"]:
+        return lensed_circles.directions(self._observer, away, self._angles)
+
     def _place(self, directions: Float[np.ndarray, "*at 3"]) -> Float[np.ndarray, "*at 2"]:
         return places(self._observer, self._plan.scene, self._aspect, directions)
-
-    def _closed(self, directions: Float[np.ndarray, "N 3"]) -> Float[np.ndarray, "M 2"]:
-        return self._place(np.concatenate([directions, directions[:1]]))
 
     def _outermost(self, line: Float[np.ndarray, "N 2"], angle_deg: float) -> Float[np.ndarray, " 2"]:
         """The place of `line` farthest from the hole in a direction on the screen; NaN where there is none."""

@@ -489,9 +489,10 @@ def values_under_the_mouse(hands: Hands) -> None:
 
 
 def labels_by_key(hands: Hands) -> None:
-    """L names what the picture shows while the camera rests or turns about the axis, and nothing is worked out while it moves otherwise."""
-    asked, of = [], labels.of
-    labels.of = lambda *given: asked.append(given[0]) or of(*given)
+    """L names what the picture shows; while the camera moves the labels are those of where it is, and nothing is worked out where it turns about the axis."""
+    asked, kept = [], (labels.of, labels.after)
+    labels.of = lambda scene, aspect: asked.append(scene) or kept[0](scene, aspect)
+    labels.after = lambda before, scene, aspect: asked.append(scene) or kept[1](before, scene, aspect)
     try:
         hands.context.yield_(3)
         assert not asked
@@ -503,21 +504,20 @@ def labels_by_key(hands: Hands) -> None:
         hands.context.mouse_move_to_pos((x + 60, y))
         asked.clear()
         hands.context.yield_(3)
-        assert hands.state.camera_moves and asked and of(asked[-1], 1.6) is of(hands.scene, 1.6)
-        hands.context.mouse_move_to_pos((x + 60, y + 40))
-        asked.clear()
-        hands.context.yield_(3)
         assert hands.state.camera_moves and not asked
+        hands.context.mouse_move_to_pos((x + 60, y + 40))
+        hands.context.yield_(3)
+        assert hands.state.camera_moves and asked and labels.shape_of(asked[-1]) == labels.shape_of(hands.scene)
         hands.context.mouse_up(0)
         hands.settle()
         hands.context.yield_(3)
-        assert asked[-1] is hands.scene
+        assert labels.shape_of(asked[-1]) == labels.shape_of(hands.scene)
         hands.press(Key.l)
         asked.clear()
         hands.context.yield_(3)
         assert not asked and not hands.scene.post.labels
     finally:
-        labels.of = of
+        labels.of, labels.after = kept
 
 
 def save_picture(hands: Hands) -> Path:

@@ -65,8 +65,9 @@ def test_crossings_are_those_of_the_march(camera) -> None:
 def test_the_march_meets_circles_where_they_are_said_to_be_seen(camera) -> None:
     """3e-6 rad of bisection, 60 r_s of change of radius to a radian in the direct image; a ring's is a e^π times steeper for every half turn."""
     radius, angles = float(relativity.isco_radius(camera[0])), np.linspace(0.3, 6.3, 24, endpoint=False)
-    images = lensed_circles.circles(seen_by(*camera), np.full(3, radius), np.arange(3), angles)
-    for order, directions in enumerate(images):
+    observer = seen_by(*camera)
+    images = lensed_circles.circles(observer, np.full(3, radius), np.arange(3), angles)
+    for order, directions in enumerate(lensed_circles.directions(observer, images, angles)):
         if camera[2] == 90.0 and order == 0:
             continue  # edge-on the direct image of what lies before the hole is a line, which no angle but two meets
         found = traced(directions, *camera).equatorial.r[:, order]
@@ -81,10 +82,49 @@ def test_rings_close_in_on_the_critical_curve(spin: float) -> None:
     observer, angles = seen_by(spin, 30.0, 20.0, "static"), np.linspace(0.0, 2.0 * np.pi, 40)
     first, second = lensed_circles.circles(observer, np.array([6.0, 6.0]), np.array([1, 2]), angles)
     edge = lensed_circles.shadow_edge(observer, angles)
-    gaps = [np.linalg.norm(ring - edge, axis=-1) for ring in (first, second)]
+    gaps = [ring - edge for ring in (first, second)]
     assert (gaps[1] < 0.2 * gaps[0]).all()
     if spin == 0.0:
         assert np.median(gaps[0] / gaps[1]) == pytest.approx(math.exp(math.pi), rel=0.15), "the first ring is still a little wide for the limit"
+
+
+@pytest.mark.parametrize("camera", [*CAMERAS, (0.998, 12.0, 90.0, "static"), (-0.998, 12.0, 60.0, "static"), (0.9, 1.3, 40.0, "zamo"), (0.9999, 20.0, 88.0, "static")])
+def test_the_critical_curve_is_where_fates_change(camera) -> None:
+    """1e-4: its points lie on it and chords between them within 3e-5 of its size, a hundredth of a pixel of a picture that it fills."""
+    spin, distance, inclination, kind = camera
+    angles = np.linspace(0.0, 2.0 * np.pi, 90)
+    found = lensed_circles.shadow_edge(seen_by(*camera), angles)
+    if math.isinf(distance):
+        near = 2e4 * lensed_circles.shadow_edge(seen_by(spin, 1e4, inclination, kind), angles)
+        np.testing.assert_allclose(found, near, rtol=3e-4)  # M/r is 5e-5
+    else:
+        np.testing.assert_allclose(found, relativity.shadow_angle(angles, distance, math.radians(inclination), spin, seen_by(*camera).kind), rtol=1e-4)
+
+
+@pytest.mark.parametrize("camera", [(0.9, 20.0, 80.0, "static"), (0.0, 15.0, 60.0, "static"), (0.998, 12.0, 45.0, "static"), (0.5, math.inf, 30.0, "static")])
+def test_circles_are_found_from_where_they_were_by_a_fifth_of_the_looks(camera, monkeypatch: pytest.MonkeyPatch) -> None:
+    """4e-5 rad, of the thousandth of a radius that is asked for at the direct image's 60 r_s to a radian and of the bisection, and
+    for a far camera as much of its 40 M; rings lie far closer."""
+    spin, distance, inclination, kind = camera
+    angles, radii, orders = np.linspace(0.0, 2.0 * np.pi, 90), np.full(3, float(relativity.isco_radius(spin))), np.arange(3)
+    before, now = seen_by(*camera), seen_by(spin, distance * 1.05, inclination - 2.0, kind)
+    guess = lensed_circles.circles(before, radii, orders, angles)
+    guess *= lensed_circles.shadow_edge(now, angles) / lensed_circles.shadow_edge(before, angles)
+    looks = []
+    whole = lensed_circles.crossing_radius
+    monkeypatch.setattr(lensed_circles, "crossing_radius", lambda rays, order: looks.append(rays.lam.size) or whole(rays, order))
+    exact = lensed_circles.circles(now, radii, orders, angles)
+    asked, _ = sum(looks), looks.clear()
+    found = lensed_circles.circles(now, radii, orders, angles, guess)
+    np.testing.assert_allclose(found, exact, atol=4e-5 if distance < math.inf else 2e-3)
+    assert sum(looks) < 0.2 * asked
+
+
+def test_a_guess_that_leads_nowhere_is_not_used() -> None:
+    observer, angles, radii, orders = seen_by(0.9, 20.0, 80.0, "static"), np.linspace(0.0, 2.0 * np.pi, 20), np.full(3, 6.0), np.arange(3)
+    exact = lensed_circles.circles(observer, radii, orders, angles)
+    for guess in (np.full((3, 20), 2.5), np.full((3, 20), 1e-3), np.full((3, 20), np.nan), np.broadcast_to(lensed_circles.shadow_edge(observer, angles), (3, 20))):
+        np.testing.assert_allclose(lensed_circles.circles(observer, radii, orders, angles, guess), exact, atol=4e-5)
 
 
 def test_a_camera_inside_a_circle_is_refused() -> None:

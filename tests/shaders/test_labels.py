@@ -138,6 +138,29 @@ def test_a_slider_of_colours_or_a_turn_about_the_axis_works_nothing_out() -> Non
     assert labels.of(scene.with_values({"post.exposure": 2.0, "disk.temperature_k": 9000.0}), 1.6) is labels.of(scene, 1.6)
 
 
+def test_labels_of_a_camera_that_moves_are_those_of_where_it_is() -> None:
+    """A tenth of a pixel of a picture 1080 high; they take a seventh of the time."""
+    scene = presets.load(["kerr"])
+    followed = labels.of(scene, 1.6)
+    for turned in (1.0, 2.0, 3.5, 5.0, 4.0):
+        moved = scene.with_values({"camera.inclination_deg": 80.0 - 2.0 * turned, "camera.distance": 20.0 * 1.02**turned, "camera.yaw_deg": turned})
+        followed, exact = labels.after(followed, moved, 1.6), labels.of(moved, 1.6)
+        assert [name.text for name in followed.names] == [name.text for name in exact.names]
+        for one, other in zip(followed.curves, exact.curves, strict=True):
+            np.testing.assert_allclose(one.places, other.places, atol=1e-4)
+
+
+def test_labels_follow_from_whatever_there_was_before() -> None:
+    scene = presets.load(["kerr"])
+    exact = labels.of(scene, 1.6)
+    before = [{"disk.enabled": False}, {"camera.distance": 1.1}, {"rays.lensing": False}, {"camera.distance": float("inf")}, {"hole.spin": 0.0}]
+    for values in before:
+        found = labels.after(labels.of(scene.with_values(values), 1.6), scene, 1.6)
+        assert [name.text for name in found.names] == [name.text for name in exact.names]
+        for one, other in zip(found.curves, exact.curves, strict=True):
+            np.testing.assert_allclose(one.places, other.places, atol=1e-4)
+
+
 # --- saved pictures ---
 
 
