@@ -84,6 +84,7 @@ class Shortcuts:
         self._layout = layout
         self._typing = Typing(_PRINTED_KEYS, _KEYPAD)
         self._down: dict[str, int] = {}
+        self._held_before: frozenset[str] = frozenset()
 
     def poll(self, panel_keys: bool = False) -> tuple[list[str], list[str]]:
         """The actions pressed in this frame, and those held. Call once in each frame.
@@ -95,35 +96,37 @@ class Shortcuts:
             self._down.clear()
             self._typing.forget()
             return [], []
+        now = _modifiers_down()
+        meant = now | self._held_before  # let go in the frame in which a key was struck, they were down with it: a frame may be long
         pressed, held = [], {name for name, key in self._down.items() if imgui.is_key_down(imgui.Key(key))}
         self._down = {name: self._down[name] for name in held}
-        for name, key in self._begun(panel_keys):
+        for name, key in self._begun(panel_keys, meant, now):
             if name not in _HELD:
                 pressed.append(name)
                 continue
             held.add(name)  # for this frame at least
             if key is not None:
                 self._down[name] = key
+        self._held_before = now
         return pressed, list(held)
 
-    def _begun(self, panel_keys: bool) -> Iterator[tuple[str, int | None]]:
-        """The actions whose chord was struck in this frame, and the key to be let go."""
+    def _begun(self, panel_keys: bool, meant: frozenset[str], now: frozenset[str]) -> Iterator[tuple[str, int | None]]:
+        """The actions whose chord was struck in this frame, and the key to be let go; `meant` are the modifiers that count, `now` those still down."""
         for name, chord, code in self._by_key:
             if panel_keys and not (chord.modifiers or _FUNCTION_KEY.fullmatch(chord.key)):
                 continue
-            if imgui.shortcut(code, imgui.InputFlags_.route_global.value):
+            if _is_struck(chord, code, meant, now):
                 yield name, _imgui_key(chord)
-        presses, modifiers = self._presses()
+        presses, modifiers = self._presses(meant)
         for press in presses:
             for name, chord in self._by_character:
                 if is_meant(chord, press, modifiers):
                     yield name, press.key
 
-    def _presses(self) -> tuple[list[Press], tuple[str, ...]]:
-        """What was struck in this frame: characters, or keys while modifiers are held that give none."""
+    def _presses(self, down: frozenset[str]) -> tuple[list[Press], tuple[str, ...]]:
+        """What was struck in this frame: characters, or keys while the modifiers `down` give none; and the modifiers with it."""
         io = imgui.get_io()
-        states = {"CTRL": io.key_ctrl, "SHIFT": io.key_shift, "ALT": io.key_alt, "SUPER": io.key_super}
-        modifiers = tuple(word for word, is_down in states.items() if is_down)
+        modifiers = tuple(word for word in _MODIFIERS if word in down)
         new = [key for key in (*_PRINTED_KEYS, *_KEYPAD) if imgui.is_key_pressed(imgui.Key(key), False)]
         characters = [character for character in map(chr, io.input_queue_characters) if character.isprintable() and character != " "]
         mute = {"CTRL", "ALT", "SUPER"} & set(modifiers) and not characters
@@ -131,7 +134,20 @@ class Shortcuts:
         if mute:
             return [Press(self._layout.alone(key), key) for key in new if key in _PRINTED_KEYS], modifiers
         # A character has used up the modifiers that it took, but for SHIFT.
-        return presses, ("SHIFT",) if io.key_shift else ()
+        return presses, ("SHIFT",) if "SHIFT" in down else ()
+
+
+def _modifiers_down() -> frozenset[str]:
+    io = imgui.get_io()
+    states = {"CTRL": io.key_ctrl, "SHIFT": io.key_shift, "ALT": io.key_alt, "SUPER": io.key_super}
+    return frozenset(word for word, is_down in states.items() if is_down)
+
+
+def _is_struck(chord: Chord, code: int, meant: frozenset[str], now: frozenset[str]) -> bool:
+    """Whether `chord`, of a key with a name and imgui's `code`, was struck in this frame with the modifiers `meant`, of which those `now` are still down."""
+    if meant == now:
+        return imgui.shortcut(code, imgui.InputFlags_.route_global.value)
+    return set(chord.modifiers) == meant and imgui.is_key_pressed(imgui.Key(_imgui_key(chord)), False)
 
 
 def is_meant(chord: Chord, press: Press, modifiers: tuple[str, ...]) -> bool:

@@ -36,3 +36,13 @@ def test_every_key_of_the_help_does_what_it_says(layout, display, tmp_path):
     held = {action.name for action in ACTIONS if action.held}
     wanted = {str(chord): [[], [action], True] if action in held else [[action], [], True] for action, chords in default_bindings().items() for chord in chords}
     assert found == wanted | {"closed": True}
+
+
+def test_modifiers_count_that_are_let_go_in_the_frame_in_which_a_key_is_struck(display, tmp_path):
+    """SHIFT+F12 was F12, and CTRL+S nothing, where a frame was as long as a hand is quick."""
+    environment = display | {"BLACKHOLE_GL_CONFIG_DIR": str(tmp_path)}
+    subprocess.run(["setxkbmap", "-layout", "us", "-variant", ""], env=environment, check=True)
+    done = subprocess.run([sys.executable, str(SCRIPT), "quick"], env=environment, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (0, "")
+    wanted = {str(chord): [[action], [], True] for action, chords in default_bindings().items() for chord in chords if chord.modifiers}
+    assert json.loads(done.stdout.splitlines()[-1]) == wanted | {"closed": True}

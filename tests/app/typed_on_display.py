@@ -1,7 +1,8 @@
 """Strikes every key of the help on the display's keyboard, by its layout of the moment, and says what the window did.
 
-    DISPLAY=:77 python tests/app/typed_on_display.py
+    DISPLAY=:77 python tests/app/typed_on_display.py [quick]
 
+quick: frames take long, and within one a key goes down and the modifiers held before and the key go up; only chords with modifiers are struck.
 Leaves by CTRL+Q. One line of JSON: chord → [actions pressed, actions held, whether those held ended with the key],
 and whether the window closed. Needs xdotool.
 """
@@ -25,6 +26,7 @@ from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.app.keys import Chord, default_bindings  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
+SLOW_S = 0.25  # a frame, where keys are quick
 HELD_S = 0.4  # in which a key would do more than it should
 COMES_S = 20.0  # in which what a key does is to be seen: on a busy machine a frame may take seconds
 _X_NAMES = {
@@ -40,6 +42,7 @@ class Recorder:
         self.pressed: list[str] = []
         self.held: list[str] = []
         self.frames = 0
+        self.frame_s = 0.0
         self._do = window.Window.do
         window.Window.do = lambda _, action: self.pressed.append(action)
         window.commands.advance = self._advance
@@ -48,7 +51,8 @@ class Recorder:
         """From now on the window does what it is told."""
         window.Window.do = self._do
 
-    def _advance(self, state, hand, dt) -> None:
+    def _advance(self, state, hand, dt, slept) -> None:
+        time.sleep(self.frame_s)
         self.frames += 1
         self.held = list(hand.held)
         state.clock += dt
@@ -72,6 +76,21 @@ def strike(chord: Chord, record: Recorder) -> tuple[list[str], list[str], bool]:
     return pressed, held, ended
 
 
+def strike_quickly(chord: Chord, record: Recorder) -> tuple[list[str], list[str], bool]:
+    """As `strike`, with the modifiers down for some frames and all else within one."""
+    record.frame_s = SLOW_S
+    record.pressed.clear()
+    modifiers, key = [word.lower() for word in chord.modifiers], x_name(chord).rpartition("+")[2]
+    subprocess.run(["xdotool", *(part for word in modifiers for part in ("keydown", word))], check=True)
+    since = record.frames
+    within(COMES_S, lambda: record.frames > since + 2)
+    subprocess.run(["xdotool", "keydown", key, *(part for word in modifiers for part in ("keyup", word)), "keyup", key], check=True)
+    since = record.frames
+    within(COMES_S, lambda: record.frames > since + 3)
+    record.frame_s = 0.0
+    return list(record.pressed), list(record.held), not record.held
+
+
 def within(seconds: float, has_come: Callable[[], object]) -> bool:
     """Waits until `has_come`, at most so long, and says whether it has."""
     last = time.monotonic() + seconds
@@ -81,14 +100,16 @@ def within(seconds: float, has_come: Callable[[], object]) -> bool:
 
 
 def main() -> None:
-    record, found, closed = Recorder(), {}, threading.Event()
+    record, found, closed, quick = Recorder(), {}, threading.Event(), "quick" in sys.argv
 
     def type_all() -> None:
         try:
             while record.frames < 20:
                 time.sleep(0.05)
-            for chord in dict.fromkeys(chord for chords in default_bindings().values() for chord in chords):
-                found[str(chord)] = strike(chord, record)
+            chords = dict.fromkeys(chord for chords in default_bindings().values() for chord in chords)
+            for chord in chords:
+                if not quick or chord.modifiers:
+                    found[str(chord)] = (strike_quickly if quick else strike)(chord, record)
             record.leave()
             leaves = x_name(default_bindings()["quit"][0])
             subprocess.run(["xdotool", "keydown", leaves], check=True)
