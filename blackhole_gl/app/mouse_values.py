@@ -21,12 +21,11 @@ class MouseValues:
     """Asks for the pixel that the mouse is over, and draws what it has."""
 
     def __init__(self) -> None:
-        self._place: Corner | None = None
         self._of: tuple[object, ...] | None = None
         self._values: PixelValues | None = None
 
-    def frame(self, state: WindowState, left_top: Corner, size: Corner) -> None:
-        """Takes the mouse's place over the picture, and draws the values there, if they are to be shown. Two pictures side by side have none.
+    def frame(self, state: WindowState, picture: Picture, left_top: Corner, size: Corner) -> None:
+        """Draws the values of the pixel that the mouse is over in the last `picture`, if they are to be shown. Two pictures side by side have none.
 
         Args:
             left_top, size: of the picture, in imgui's units.
@@ -34,18 +33,18 @@ class MouseValues:
         io = imgui.get_io()
         wanted = state.show_values and not state.show_sides and not io.want_capture_mouse and not state.camera_moves
         x, y = (io.mouse_pos.x - left_top[0]) / max(size[0], 1.0), 1.0 - (io.mouse_pos.y - left_top[1]) / max(size[1], 1.0)
-        self._place = (x, y) if wanted and 0.0 <= x < 1.0 and 0.0 <= y < 1.0 else None
-        if self._place is not None and self._values is not None:
+        self._read(picture, (x, y) if wanted and 0.0 <= x < 1.0 and 0.0 <= y < 1.0 else None)
+        if self._values is not None:
             _draw(lines(self._values), (io.mouse_pos.x, io.mouse_pos.y), left_top, size)
 
-    def advance(self, picture: Picture) -> None:
-        """Reads the pixel there, when it is another or the picture's hits are. `frame` of the next frame draws it."""
-        if self._place is None or not picture.is_current or picture.report is None:
+    def _read(self, picture: Picture, place: Corner | None) -> None:
+        """Reads the pixel at `place`, when it is another or the picture's hits are."""
+        if place is None or not picture.is_current or picture.report is None:
             self._of = self._values = None
             return
-        asked = (self._place, picture.renderer.hit_map.generation, picture.report)
+        asked = (place, picture.renderer.hit_map.generation, picture.report)
         if asked != self._of:
-            self._of, self._values = asked, picture.renderer.values_at(self._place)
+            self._of, self._values = asked, picture.renderer.values_at(place)
 
 
 def lines(values: PixelValues) -> list[str]:

@@ -268,7 +268,7 @@ class Window:
         em = hello_imgui.em_size()
         overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
-        self._mouse_values.frame(state, (view.left, view.top), (view.width, view.height))
+        self._mouse_values.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
         self._labels.draw(state, (view.left, view.top), (view.width, view.height))
         self._picking.frame(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
@@ -307,7 +307,6 @@ class Window:
         self.live_chart.advance(self._gl, self.state, glfw.get_time())
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture_window.advance(self._gl, self.state)
-        self._mouse_values.advance(self.picture)
         self._picking.advance(self._gl, self.state, self.picture)
         self.picture.draw(window, view.area)
         if self.picture.is_current and self.state.render_error is None:

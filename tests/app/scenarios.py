@@ -20,7 +20,7 @@ from hands import Frames, Hands, wait
 from PIL import Image
 
 from blackhole_gl import plan
-from blackhole_gl.app import compass, preset_switch
+from blackhole_gl.app import compass, mouse_values, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
@@ -476,9 +476,13 @@ def values_under_the_mouse(hands: Hands) -> None:
     mouse = imgui.get_io().mouse_pos
     assert abs(places[0][0] - (mouse.x - view.left) / view.width) < 1e-6
     assert abs(places[0][1] - (1.0 - (mouse.y - view.top) / view.height)) < 1e-6
+    drawn, draw = [], mouse_values._draw
+    mouse_values._draw = lambda told, mouse, *given: drawn.append((mouse, places[-1])) or draw(told, mouse, *given)
     hands.context.mouse_move_to_pos((x + 30, y + 10))
     hands.context.yield_(4)
+    mouse_values._draw = draw
     assert places[-1][0] > places[0][0] and places[-1][1] < places[0][1]
+    assert drawn and all(abs(view.left + view.width * place[0] - mouse[0]) < 1e-3 for mouse, place in drawn), drawn
     hands.context.mouse_move(hands.item("##hole.spin"))
     hands.context.yield_(4)
     assert not is_shown()
