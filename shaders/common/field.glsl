@@ -8,6 +8,7 @@
 // ways before and after are looked at once a ray. A ray that has gone rays_field_way within is held there: it ends as CAPTURED, and is black.
 
 #define RAY_MEETS_BEYOND
+#define RAY_STEPS_SHORT
 
 struct Orbit {
     float bends;   // 1 for a ray that comes into the sphere; 0 for one that passes it by

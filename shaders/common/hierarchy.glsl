@@ -21,8 +21,9 @@ Piece piece_of(vec3 x, vec3 y, float stray) {
 }
 
 Node fetch_node(sampler2D nodes, int node) {
-    ivec2 place = ivec2(2 * (node & ((1 << ROW_BITS) - 1)), node >> ROW_BITS);
-    return Node(texelFetch(nodes, place, 0), texelFetch(nodes, place + ivec2(1, 0), 0));
+    vec2 texel = 1.0 / vec2(textureSize(nodes, 0));
+    vec2 place = (vec2(2 * (node & ((1 << ROW_BITS) - 1)), node >> ROW_BITS) + 0.5) * texel;
+    return Node(textureLod(nodes, place, 0.0), textureLod(nodes, place + vec2(texel.x, 0.0), 0.0));
 }
 
 // Whether the piece meets the node's box before its part `most`.

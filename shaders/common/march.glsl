@@ -24,6 +24,7 @@
 // RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift and no state_push.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
 // RAY_MEETS_BEYOND: ray_init and ray_finish also meet what lies before and after the march, and begin at the camera.
+// RAY_STEPS_SHORT: many steps pass the same thing, so that it pays to remember how far things are from the last that was looked at.
 // RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its
 // size; −1 for none. For the view of conserved quantities only.
 //
@@ -67,6 +68,11 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 
 #if MEETINGS
 const int MOST_STEPS = 32767;
+#ifdef RAY_STEPS_SHORT
+const bool MARCH_REMEMBERS = true;
+#else
+const bool MARCH_REMEMBERS = false;  // by Kerr's six steps a ray it costs a tenth more
+#endif
 #endif
 
 // A ray under way.
@@ -80,6 +86,7 @@ struct March {
     bool crossed;   // z = 0, in the last step
 #if MEETINGS
     bool near;      // something may have been met in it
+    vec4 clear;     // a ball in which nothing can be
 #endif
 #if !RAYS_EARLY_END
     float gone, whole;  // how far it has gone, in the parameter of the march, and would go by all steps
@@ -116,6 +123,7 @@ March march_start(Orbit orbit, State first) {
     m.crossed = false;
 #if MEETINGS
     m.near = false;
+    m.clear = NOWHERE;
 #endif
 #if !RAYS_EARLY_END
     m.gone = 0.0;
@@ -158,7 +166,7 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #endif
 #if MEETINGS
 #if RAYS_BOUNDS
-        m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
+        m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear);
 #else
         m.near = true;
 #endif
@@ -243,7 +251,7 @@ int steps_gone_on(Orbit orbit, March m) {
 #if MEETINGS
         bool near = true;
 #if RAYS_BOUNDS
-        near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h);
+        near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear);
 #endif
         if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0).at;
 #endif
@@ -272,14 +280,24 @@ Hits trace_ray(RayStart start) {
     do {
         Found found;
         Way way;
+        bool pauses;
+#if MARCH_REPEATS
+        do {
+#else
         for (int i = 0; i < MOST_STEPS; ++i) {
+#endif
             march_on(orbit, ORDERS > 0, m);
             end = march_end(orbit, m);
             found = NOTHING_FOUND;
             way = way_of(orbit, m);
             if (m.near) found = next_meeting(way, 0.0, min(end, 1.0));
-            if (m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps) break;
+            pauses = m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps;
+#if MARCH_REPEATS
+        } while (!pauses);
+#else
+            if (pauses) break;
         }
+#endif
         if (!met) met = meet_in_step(orbit, m, way, end, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;

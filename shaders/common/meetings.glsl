@@ -119,15 +119,27 @@ Found first_on_piece(vec3 x, vec3 y, float stray, out float allowed) {
     return found;
 }
 
-// Whether anything may be met on the way from a to b, one step of the march of length h.
-bool may_meet(Path a, Path b, float h) {
+// A ball in which there is nothing to meet: centre and radius in r_s.
+const vec4 NOWHERE = vec4(0.0, 0.0, 0.0, -1.0);
+
+// How far x is at least from what a leaf holds, or what is below another node.
+float room_beside(Node node, vec3 x) {
+    float room = distance(x, clamp(x, node.low.xyz, node.high.xyz));
+    return is_leaf(node) ? max(room, distance(x, 0.5 * (node.low.xyz + node.high.xyz)) - half_width(node)) : room;
+}
+
+// Whether anything may be met on the way from a to b, one step of the march of length h. Where it `remembers`, `clear` is what is known from the steps before, and
+// from this one.
+bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear) {
     if (path_leaves(a, b, meeting_reach)) return false;
     if (min(a.place.w, b.place.w) <= 0.0) return true;
     float stray = path_stray(a, b, h);
     vec3 x = path_point(a), y = path_point(b);
     Piece piece = piece_of(x, y, stray);
-    bool near = stray > 1e29;
-    int number = near ? -1 : 0;
+    bool is_clear = remembers && max(distance(x, clear.xyz), distance(y, clear.xyz)) + piece.pad < clear.w;
+    bool near = !is_clear && stray > 1e29;
+    int number = is_clear || near ? -1 : 0;
+    float room = 1e30;
     while (number >= 0) {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
@@ -136,8 +148,10 @@ bool may_meet(Path a, Path b, float h) {
         int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);
 #endif
+        if (remembers && (!met || is_leaf(node))) room = min(room, room_beside(node, y));  // no more of the hierarchy is walked to find out
         number = near ? -1 : next_node(node, number, met);
     }
+    if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y, room);
     return near;
 }
 
