@@ -6,6 +6,9 @@
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/disk_edge.glsl"
+#if IN_FIELD
+#include "common/observer.glsl"
+#endif
 #include "common/edge_marks.glsl"
 
 out vec2 mark;

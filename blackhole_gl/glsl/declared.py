@@ -50,6 +50,8 @@ class EdgeMark(IntEnum):
     """The same of the second ring."""
     VEILED = 64
     """The direct picture hides the first ring's edges."""
+    IN_FIELD = 128
+    """The ray comes into the sphere of a field."""
     NO_RAY = 255
     """The pixel has no ray of its own."""
     MET = 127

@@ -1,4 +1,5 @@
-"""Which pixels of a hit map one ray is too few for: those within or beside which the fate, the order or what is met changes."""
+"""Which pixels of a hit map one ray is too few for: those within or beside which the fate, the order or what is met changes, or that
+lie at the rim of a field's sphere."""
 
 from __future__ import annotations
 

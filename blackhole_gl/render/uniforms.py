@@ -172,7 +172,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, **instances.switches(instances.used(plan.scene))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
-    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), **defines(), **_constants()}
+    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key) is True)
     for key, names in _choice_names():

@@ -9,8 +9,20 @@ int edge_zone(vec2 point) {
     return on_disk(point) ? 1 : point != vec2(0.0) && dot(point, point) < disk_r_in * disk_r_in ? 2 : 0;
 }
 
+#if IN_FIELD
+// Whether a pixel's ray comes from without into the sphere in which it is bent: at its rim what is seen breaks off, be it of one kind on both sides.
+bool enters_field(ivec2 pixel) {
+    RayStart start = ray_start(pixel_direction(vec2(pixel) + 0.5));
+    bool outside = 2.0 * camera_w * rays_field_radius < 1.0;
+    return outside && start.w_rate > 0.0 && 0.5 * length(start.n_rate) < rays_field_radius;
+}
+#endif
+
 vec2 edge_mark(Hits hits, ivec2 pixel) {
     int seen = hits.fate, met = 0;
+#if IN_FIELD
+    seen |= enters_field(pixel) ? EDGE_IN_FIELD : 0;
+#endif
 #if ORDERS > 1
     seen |= edge_zone(hits.crossing[1]) * EDGE_RING_1 | edge_zone(hits.crossing[2]) * EDGE_RING_2;
 #endif

@@ -10,7 +10,10 @@ from blackhole_gl.render.edge_pixels import at_edges, beside_things
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF
-MARKS = (SKY, SKY, SKY, SHADOW, SKY | EdgeMark.RING_1, SKY | EdgeMark.VEILED, SKY | EdgeMark.VEILED | EdgeMark.RING_1, SKY | 3 << 8, NO_RAY)
+MARKS = (
+    *(SKY, SKY, SKY, SHADOW, SKY | EdgeMark.RING_1, SKY | EdgeMark.VEILED, SKY | EdgeMark.VEILED | EdgeMark.RING_1),
+    *(SKY | 3 << 8, SKY | EdgeMark.IN_FIELD, NO_RAY),
+)
 
 
 def by_pixel(marks: np.ndarray) -> list[tuple[int, int]]:
@@ -41,7 +44,7 @@ def test_edges_are_found_wherever_they_are(seed: int) -> None:
 def test_pixels_beside_things_are_told(seed: int) -> None:
     """What is met lies in the upper seven bits less one; of a pixel without a ray all bits are set, and it shows nothing."""
     random = np.random.default_rng(seed)
-    marks = random.choice((*MARKS, SKY | 1 << 15), (9, 14), p=(0.9, *[0.1 / 9] * 9)).astype(np.uint16)
+    marks = random.choice((*MARKS, SKY | 1 << 15), (9, 14), p=(0.9, *[0.1 / 10] * 10)).astype(np.uint16)
     pixels = np.stack(np.divmod(np.arange(marks.size), 14)[::-1], axis=-1)
     shows = (marks != NO_RAY) & (marks >> 8 & 127 != 0)
     expected = [bool(shows[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].any()) for x, y in pixels]
