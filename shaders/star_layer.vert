@@ -2,7 +2,8 @@
 // Listed pixels of a coarse picture → the single stars in them as points on the picture enlarged: the brightest of each, then the second ones of those that may have
 // several. A point without one is nowhere.
 // A star is placed by its offset from the pixel's own direction, and the map's slopes there. Who finds it in his pixel, or just beside it, draws it: neighbours that
-// differ a little about the border both do, rather than neither, and the brighter of the two is kept.
+// differ a little about the border both do, rather than neither, and the brighter of the two is kept. An image longer than a few pixels, as beside an Einstein ring,
+// bends with the map: every pixel that it reaches draws what lies in it, by its own slopes.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -28,7 +29,7 @@ flat out vec3 glowing;
 
 const float WITHIN = 0.51;     // of a pixel from its middle
 const float NEAR = 0.7;        // the same, before the map's bend is reckoned with
-const float MOST_REACH = 24.0; // of a star's image, in pixels shown: longer arcs are cut off
+const float LONG = 8.0;        // of a star's image from its middle, in pixels shown: from there on it is drawn by pieces
 
 // How the direction changes along one axis of the picture, about a pixel: once and twice.
 struct Slope {
@@ -87,6 +88,26 @@ vec2 offset_of(vec3 direction, Place at) {
     return vec2(dot(inverse.xy, along), dot(inverse.yz, along));
 }
 
+// The kernel's covariance in pixels shown: a pixel, and the star's own `size` in rad, by slopes to a pixel shown.
+vec3 spread_of(vec4 gram, float size) {
+    return vec3(1.0, 0.0, 1.0) + size * size * inverse_of(gram.xyz, gram.w);
+}
+
+// Its eigenvalue along the image.
+float longest(vec3 spread) {
+    float across = 0.5 * (spread.x - spread.z);
+    return 0.5 * (spread.x + spread.z) + sqrt(across * across + spread.y * spread.y);
+}
+
+// Whether an image with its middle `offset` pixels away reaches into the pixel: by its kernel, widened by a little more than half the pixel's diagonal.
+bool reaches(vec2 offset, vec3 spread) {
+    vec2 wider = 0.36 / finer + 0.7;
+    spread += vec3(wider.x * wider.x, 0.0, wider.y * wider.y);
+    vec3 inverse = inverse_of(spread, spread.x * spread.z - spread.y * spread.y);
+    vec2 d = offset / finer;
+    return inverse.x * d.x * d.x + 2.0 * inverse.y * d.x * d.y + inverse.z * d.y * d.y < 4.0;
+}
+
 void main() {
     carry();
     int width = textureSize(pixels, 0).x, entry = gl_VertexID;
@@ -99,11 +120,14 @@ void main() {
     Place middle = place_at(own.direction, x, y, mixed, vec2(0.0));
 
     float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(vec2(here) + 0.5)), 1e-6);
+    vec4 shown = gram_of(finer.x * middle.right, finer.y * middle.up);
     Star first = Star(0, own.direction, 0.0), second = first;
     vec4 found;
     for (int n = 0; n < SKY_STARS; ++n) {
         vec3 light = sky_star(n, own.direction, finer.x * x.once, finer.y * y.once, energy, found);
-        bool near = all(lessThan(abs(offset_of(found.xyz, middle)), vec2(NEAR)));
+        vec2 away = offset_of(found.xyz, middle);
+        vec3 image = spread_of(shown, found.w);
+        bool near = 4.0 * longest(image) > LONG * LONG ? reaches(away, image) : all(lessThan(abs(away), vec2(NEAR)));
         Star star = Star(n, found.xyz, near ? dot(light, vec3(1.0)) : 0.0);
         bool brighter = star.power > first.power;
         if (brighter || star.power > second.power) second = brighter ? first : star;
@@ -111,25 +135,29 @@ void main() {
     }
     Star star = entry < firsts ? first : second;
 
-    vec2 offset = vec2(0.0); // by Newton
+    bool pieces = 4.0 * longest(spread_of(shown, found.w)) > LONG * LONG; // all stars are of one size
+    vec2 offset = offset_of(star.direction, middle);
+    bool mine = pieces && reaches(offset, spread_of(shown, found.w));
     Place at = middle;
-    for (int i = 0; i < 3; ++i) {
-        offset = clamp(offset + offset_of(star.direction, at), -1.0, 1.0);
-        at = place_at(own.direction, x, y, mixed, offset);
+    if (!pieces) { // by Newton
+        offset = vec2(0.0);
+        for (int i = 0; i < 3; ++i) {
+            offset = clamp(offset + offset_of(star.direction, at), -1.0, 1.0);
+            at = place_at(own.direction, x, y, mixed, offset);
+        }
+        mine = all(lessThan(abs(offset), vec2(WITHIN)));
     }
-    bool mine = all(lessThan(abs(offset), vec2(WITHIN)));
 
-    // The kernel's covariance in pixels shown: a pixel, and the star's own size.
     at.right *= finer.x;
     at.up *= finer.y;
     vec3 light = sky_star(star.n, at.direction, at.right, at.up, energy, found); // once more: how much of it is a haze goes by the slopes
     vec4 gram = gram_of(at.right, at.up);
-    vec3 spread = vec3(1.0, 0.0, 1.0) + found.w * found.w * inverse_of(gram.xyz, gram.w);
+    vec3 spread = spread_of(gram, found.w);
     float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);
     place = (vec2(here) + 0.5 + offset) / finer;
     stretch = 0.25 * inverse_of(spread, spread_det);
     brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
-    vec2 part = place * finer / vec2(textureSize(radiance, 0)); // of the picture
+    vec2 part = (pieces ? vec2(here) + 0.5 : place * finer) / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
     glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;
 #else
@@ -137,5 +165,5 @@ void main() {
 #endif
     bool drawn = x.known && y.known && mine && star.power > 0.0;
     gl_Position = drawn ? vec4(2.0 * part - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
-    gl_PointSize = 2.0 * min(2.0 * sqrt(max(spread.x, spread.z)), MOST_REACH);
+    gl_PointSize = pieces ? 1.0 / min(finer.x, finer.y) + 1.0 : 4.0 * sqrt(max(spread.x, spread.z));
 }

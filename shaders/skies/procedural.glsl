@@ -234,6 +234,9 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer
     vec2 shift = sky_shift(energy);
     SkySpot spot = sky_spot(direction, finer * right, finer * up);
     float room = 0.362 / finer; // a little beyond the pixel's corners, 0.71 of its sides away; a half kernel is two sides of a finer one
+    // An image as long as star_layer.vert draws by pieces: the footprint's short half-axis is little more than a star's radius.
+    float short2 = 1.0 / max(9.8696044 * spot.kernel * spot.kernel * spot.reach2, 1e-20);
+    if (short2 < (16.0 / 15.0) * max(sky_procedural_star_size * sky_procedural_star_size, 1e-13)) room += 1.0;
     StarLight stars = star_light(spot, room * room);
     stars_near = stars.near;
     if (finer < 1.0) stars.flux = stars.heat = 0.0;
