@@ -14,7 +14,8 @@ REFINE_STEP = 4
 """Pixels between the exact rays of a refined hit map's coarse grid."""
 
 REACH_STEP = 2 * REFINE_STEP
-"""Pixels between the coarse rays that first tell where things can be seen: twice `REFINE_STEP`, which is what there is between those that tell it of cells."""
+"""Pixels between the coarse rays that first tell where things can be seen, at least: twice `REFINE_STEP`, which is what there is between those that tell it of
+cells."""
 
 GRID_MARGIN = 2
 """Nodes of that grid outside the picture on each side: those whose differences the picture's edge needs, and what they are differences from."""

@@ -11,7 +11,7 @@ from ..physics import motion
 from ..plan import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
 from ..shapes import Float
-from .classes import Where, drawn
+from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
 from .squares import Squares
@@ -20,6 +20,9 @@ from .target import Target
 
 MOST_BALLS = 24
 """Balls that rays are held against; more are put together in larger ones."""
+
+# Nodes of the first level across the height of a picture, at least, unless they would be closer than REACH_STEP; twice as many as tests hold to be enough.
+_ACROSS = 45
 
 _MARKED = Where(">", 0.5)  # by shaders/reach_marks.frag
 
@@ -65,15 +68,14 @@ class _Level:
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """Of a picture's size: squares, and the finer cells in those that are near."""
+    """Of a picture's size: nodes by the pixels between them, each half as far apart as those before."""
 
     size: tuple[int, int]
-    squares: _Level
-    cells: _Level
+    levels: dict[int, _Level]
 
     def release(self) -> None:
-        self.squares.release()
-        self.cells.release()
+        for level in self.levels.values():
+            level.release()
 
 
 class Reach:
@@ -93,27 +95,28 @@ class Reach:
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_nodes.frag", inputs, ALONE)
         few = gathered(balls, MOST_BALLS)
-        self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
-        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan), reach_step=float(REACH_STEP))
-        made.squares.nodes.frame.use()
-        nodes.draw()
-        self._judge(inputs, made.squares, None)
-        self._mark(inputs, made)
-        self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {"reach_balls": self._table(few)})
-        nodes.set(reach_step=float(REFINE_STEP))
-        frame = made.cells.nodes.frame
-        frame.use()
-        frame.depth_mask = False
-        with drawn(self._ctx, nodes, _MARKED):
-            nodes.draw()
-        self._judge(inputs, made.cells, made.squares.cells.texture)
-        return made.cells.cells.texture
+        table = {"reach_balls": self._table(few)}
+        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
+        found: moderngl.Texture | None = None
+        for step, level in made.levels.items():
+            if found is not None:
+                self._mark(inputs, level, found)
+            self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), table)
+            nodes.set(reach_step=float(step))
+            frame = level.nodes.frame
+            frame.use()
+            frame.depth_mask = False
+            with drawn(self._ctx, nodes, EVERYWHERE if found is None else _MARKED):
+                nodes.draw()
+            self._judge(inputs, level, found)
+            found = level.cells.texture
+        return made.levels[REFINE_STEP].cells.texture
 
-    def _mark(self, inputs: FrameInputs, made: _Made) -> None:
-        """Marks the nodes of the cells in squares that are near."""
+    def _mark(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture) -> None:
+        """Marks the nodes of the cells in those that were found first."""
         marks = self._programs.get("reach_marks.frag", inputs)
-        marks.sample({"found_first": made.squares.cells.texture})
-        made.cells.marks.use()
+        marks.sample({"found_first": found_first})
+        level.marks.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
         marks.draw()
@@ -144,7 +147,7 @@ class Reach:
         if self._made is None or self._made.size != size:
             if self._made is not None:
                 self._made.release()
-            self._made = _Made(size, _Level.of(self._ctx, size, REACH_STEP), _Level.of(self._ctx, size, REFINE_STEP))
+            self._made = _Made(size, {step: _Level.of(self._ctx, size, step) for step in steps(size[1])})
         return self._made
 
     def _table(self, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
@@ -153,6 +156,17 @@ class Reach:
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
         self._balls.write(balls.astype(np.float32).tobytes(), (0, 0, len(balls), 1))
         return self._balls
+
+
+def steps(height: int) -> list[int]:
+    """Pixels between the nodes of each level, of a picture of that height: the first are as many whatever the picture's size."""
+    first = REACH_STEP
+    while 2 * first * _ACROSS <= height:
+        first *= 2
+    found = [first]
+    while found[-1] > REFINE_STEP:
+        found.append(found[-1] // 2)
+    return found
 
 
 def _texture(ctx: moderngl.Context, size: tuple[int, int], dtype: str) -> moderngl.Texture:

@@ -85,6 +85,7 @@ struct March {
     int steps, fate;
     bool crossed;   // z = 0, in the last step
 #if MEETINGS
+    int first;      // leaf that may have been met
     bool near;      // something may have been met in it
     vec4 clear;     // a ball in which nothing can be
 #endif
@@ -123,6 +124,7 @@ March march_start(Orbit orbit, State first) {
     m.crossed = false;
 #if MEETINGS
     m.near = false;
+    m.first = 0;
     m.clear = NOWHERE;
 #endif
 #if !RAYS_EARLY_END
@@ -166,7 +168,7 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #endif
 #if MEETINGS
 #if RAYS_BOUNDS
-        m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear);
+        m.near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear, m.first);
 #else
         m.near = true;
 #endif
@@ -234,7 +236,7 @@ bool meet_in_step(Orbit orbit, March m, Way way, float end, Found found, inout H
 #if MEETINGS > 1
         Path path = way_path(way, found.at);
         float beyond = found.at + 2.0 * overstep(found.size, path_point(path)) / length(path_velocity(path));
-        found = next_meeting(way, beyond, min(end, 1.0));
+        found = next_meeting(way, beyond, min(end, 1.0), m.first);
     }
 #endif
     return false;
@@ -251,9 +253,9 @@ int steps_gone_on(Orbit orbit, March m) {
 #if MEETINGS
         bool near = true;
 #if RAYS_BOUNDS
-        near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear);
+        near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear, m.first);
 #endif
-        if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0).at;
+        if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0, 0).at;
 #endif
     }
     return m.steps + (abs(ray_height(m.next)) + found < -plan_step_length ? 1 : 0);
@@ -290,7 +292,7 @@ Hits trace_ray(RayStart start) {
             end = march_end(orbit, m);
             found = NOTHING_FOUND;
             way = way_of(orbit, m);
-            if (m.near) found = next_meeting(way, 0.0, min(end, 1.0));
+            if (m.near) found = next_meeting(way, 0.0, min(end, 1.0), m.first);
             pauses = m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps;
 #if MARCH_REPEATS
         } while (!pauses);

@@ -96,12 +96,12 @@ bool meets_ball(Node leaf, float radius, vec3 x, vec3 y) {
     return beside(0.5 * (leaf.low.xyz + leaf.high.xyz) - x, y - x) <= radius * radius;
 }
 
-// The first of all that the piece from x to y meets. `allowed` is how far the way may stray from it: where that is less than `stray`, the piece is too long for what
-// it is near to, and nothing else is told.
-Found first_on_piece(vec3 x, vec3 y, float stray, out float allowed) {
+// The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
+// `stray`, the piece is too long for what it is near to, and nothing else is told.
+Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
     Found found = NOTHING_FOUND;
     Piece piece = piece_of(x, y, stray);
-    int number = stray < 1e29 ? 0 : -1;
+    int number = stray < 1e29 ? first : -1;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
     while (number >= 0) {
         Node node = fetch_node(meeting_nodes, number);
@@ -128,9 +128,10 @@ float room_beside(Node node, vec3 x) {
     return is_leaf(node) ? max(room, distance(x, 0.5 * (node.low.xyz + node.high.xyz)) - half_width(node)) : room;
 }
 
-// Whether anything may be met on the way from a to b, one step of the march of length h. Where it `remembers`, `clear` is what is known from the steps before, and
-// from this one.
-bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear) {
+// Whether anything may be met on the way from a to b, one step of the march of length h, and the `first` leaf of which that may be: no piece of the way need look
+// at those before. Where it `remembers`, `clear` is what is known from the steps before, and from this one.
+bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, out int first) {
+    first = 0;
     if (path_leaves(a, b, meeting_reach)) return false;
     if (min(a.place.w, b.place.w) <= 0.0) return true;
     float stray = path_stray(a, b, h);
@@ -149,6 +150,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear) {
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);
 #endif
         if (remembers && (!met || is_leaf(node))) room = min(room, room_beside(node, y));  // no more of the hierarchy is walked to find out
+        if (near) first = number;
         number = near ? -1 : next_node(node, number, met);
     }
     if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y, room);
@@ -170,7 +172,7 @@ float parameter_beside(Way way, float from, float to, vec3 x, vec3 onward) {
 const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far away, left out there: a thousand times as far as its other end
 
 // The first meeting on the curve between its parameters `from` and `to`.
-Found next_meeting(Way way, float from, float to) {
+Found next_meeting(Way way, float from, float to, int first) {
     float t = way.a.place.w <= 0.0 ? max(from, FAR_END) : from;
     float last = way.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
     Path here = way_path(way, t);
@@ -183,7 +185,7 @@ Found next_meeting(Way way, float from, float to) {
         Path there = way_path(way, next);
         vec3 y = path_point(there);
         float stray = path_stray(here, there, next - t);
-        found = first_on_piece(x, y, stray, allowed);
+        found = first_on_piece(x, y, stray, first, allowed);
         if (stray > allowed) {
             found = NOTHING_FOUND;
             part = (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
@@ -255,7 +257,7 @@ bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, 
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
         float ignored;
-        Found found = first_on_piece(x + from * v, x + last * v, 0.0, ignored);
+        Found found = first_on_piece(x + from * v, x + last * v, 0.0, 0, ignored);
         bool none = found.kind == MEETING_NONE || from >= last;
         float s = mix(from, last, found.at);
         if (crosses && (none || s_crossing < s)) {

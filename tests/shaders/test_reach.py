@@ -62,14 +62,14 @@ def _random_view(rng: np.random.Generator, steps: dict[str, object]) -> Scene:
     return _scene(**things, **camera, **steps)
 
 
-def _traced(renderer: Renderer, scene: Scene, *, progressive: bool, time: float = 0.0) -> HitArrays:
+def _traced(renderer: Renderer, scene: Scene, *, progressive: bool, time: float = 0.0, size: tuple[int, int] = SIZE) -> HitArrays:
     renderer.hit_map.forget()
-    renderer.hit_map.trace(_inputs(scene, time), progressive=progressive)
+    renderer.hit_map.trace(_inputs(scene, time, size), progressive=progressive)
     return renderer.hits()
 
 
-def _inputs(scene: Scene, time: float) -> FrameInputs:
-    return FrameInputs.whole(plan(scene), time, SIZE)
+def _inputs(scene: Scene, time: float, size: tuple[int, int] = SIZE) -> FrameInputs:
+    return FrameInputs.whole(plan(scene), time, size)
 
 
 def _same(found: HitArrays, exact: HitArrays) -> bool:
@@ -94,6 +94,18 @@ def test_no_thing_is_lost_or_displaced_under_a_moving_camera(renderer: Renderer,
     assert shown > 30 * VIEWS
     assert wrong <= most
     assert interpolated > 0.4 * VIEWS * SIZE[0] * SIZE[1], "at 1280×720 most pixels are: squares are as large whatever the picture's size"
+
+
+def test_nor_in_a_large_picture_whose_first_nodes_are_farther_apart(renderer: Renderer) -> None:
+    size, rng = (360, 720), np.random.default_rng(5)
+    assert reach.steps(size[1]) == [16, 8, 4] and reach.steps(SIZE[1]) == [8, 4]
+    shown = 0
+    for _ in range(3):
+        scene = _random_view(rng, FINE)
+        exact, found = (_traced(renderer, scene, progressive=progressive, size=size) for progressive in (False, True))
+        shown += np.count_nonzero(exact.met[..., 0, 0] >= 0)
+        np.testing.assert_array_equal(found.met, exact.met)
+    assert shown > 10_000
 
 
 def test_a_sphere_that_moves_before_a_resting_camera_leaves_the_exact_map_bit_for_bit(renderer: Renderer) -> None:
