@@ -64,6 +64,7 @@ SHOTS = (
     Shot("objects_undistorted", ("objects_undistorted",)),
     Shot("orbiting_star", ("orbiting_star",)),
     Shot("neutron_star", ("neutron_star",)),
+    Shot("knot_behind_a_hole", ("knot_behind_a_hole",)),
 )
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from blackhole_gl.plan import choice, plan
-from blackhole_gl.resources import presets_dir
+from blackhole_gl.resources import assets_dir, presets_dir
 from blackhole_gl.scene import Scene, fields, presets
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
@@ -151,3 +151,9 @@ def test_luminet_is_seen_from_infinity_in_white_light():
     scene = presets.load(["luminet_1979"])
     assert math.isinf(scene.camera.distance)
     assert scene.disk.colour == "white" and not scene.sky.enabled
+
+
+def test_every_mesh_that_ships_is_in_a_scene_that_ships() -> None:
+    shown = {str(thing.values.get("file")) for info in SHIPPED for thing in presets.load([info.name]).things.values()}
+    meshes = sorted(path.name for path in (assets_dir() / "meshes").iterdir())
+    assert meshes and all(f"asset:meshes/{name}" in shown for name in meshes)
