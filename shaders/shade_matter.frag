@@ -4,7 +4,8 @@
 //
 // Contract of a disk layer (shaders/disks/<key>.glsl):
 //   DiskMatter disk_layer_<key>(DiskMatter matter)
-//     changes matter.density, 1 on a smooth disk, keeping its mean near 1. Detail below matter.footprint must be faded out.
+//     changes matter.density, 1 on a smooth disk, keeping its mean near 1, or matter.gain, by which the light alone is multiplied. Detail below
+//     matter.footprint must be faded out. With its strength at 0 a layer leaves both as they are, bit for bit.
 //     Motion: shear_phase = (age₀, age₁, weight₀, weight₁) and shear_seed (blackhole_gl/physics/shear.py): two patterns that are
 //     born, sheared and replaced in turn, so that the shear never winds up.
 //     Loops that run a known number of times are best written do … while (docs/llvmpipe.md).
@@ -75,11 +76,13 @@ Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
     vec2 across = vec2(-heading.y, heading.x);
     vec2 radial = vec2(dot(crossing.right, heading), dot(crossing.up, heading));
     vec2 around = vec2(dot(crossing.right, across), dot(crossing.up, across));
-    DiskMatter matter = DiskMatter(r, heading, vec2(length(radial), length(around)) * (block_side / r), 1.0);
+    float emitted_at = clamp(r, disk_r_in, disk_r_out);
+    vec2 footprint = vec2(length(radial), length(around)) * (block_side / r);
+    DiskMatter matter = DiskMatter(r, heading, footprint, disk_approach(emitted_at, lambda), disk_shift(emitted_at, lambda).y, 1.0, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
 
     vec2 look = disk_appearance(matter.density) * disk_cover(crossing);
-    vec3 emission = disk_radiance(clamp(r, disk_r_in, disk_r_out), lambda, energy);
+    vec3 emission = disk_radiance(emitted_at, lambda, energy) * matter.gain;
     return Light(light.gathered + light.passed * look.x * emission, light.passed * (1.0 - look.y));
 }
 

@@ -196,7 +196,7 @@ class WindowState:
         scene = self.scene
         if scene.post.view != "picture":  # diagnostic views know no time
             return False
-        return not self.paused and scene.playback.rate > 0.0 and scene.disk.enabled and bool(scene.disk_layers())
+        return not self.paused and scene.playback.rate > 0.0 and scene.disk_moves
 
     @property
     def camera_moves(self) -> bool:

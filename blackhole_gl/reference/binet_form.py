@@ -124,10 +124,10 @@ def binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 
     return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon))
 
 
-@twin("kerr_like", metric="schwarzschild", parameters={**_STRENGTHS, "drag": "rays.kerr_like.drag"})
-def twisted_binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0) -> Traced:
-    """As `binet_form`, turned about the axis; drag: k."""
-    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon, drag * view.spin))
+@twin("kerr_like", metric="schwarzschild", parameters={**_STRENGTHS, "drag": "rays.kerr_like.drag", "twist": "rays.kerr_like.twist"})
+def twisted_binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0, twist: bool = True) -> Traced:
+    """As `binet_form`, turned about the axis; drag: k; twist: whether it is turned at all."""
+    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon, drag * view.spin if twist else 0.0))
 
 
 def _traced(view: View, system: BinetSystem) -> Traced:

@@ -138,6 +138,12 @@ class Scene:
         """The keys of the disk's layers that are switched on."""
         return tuple(key for key, switch in _layer_switches() if self.get(switch))
 
+    @property
+    def disk_moves(self) -> bool:
+        """Whether the disk looks otherwise at another time."""
+        known = catalogue.plug_ins("disk_layer")
+        return self.disk.enabled and any(known[key].traits.moves for key in self.disk_layers())
+
     def __reduce__(self):
         return _restore, (self.values(),)
 

@@ -102,9 +102,11 @@ class DiskLayerTraits:
 
     Attributes:
         enabled: whether it is on in a scene that does not say.
+        moves: whether it looks otherwise at another time.
     """
 
     enabled: bool = False
+    moves: bool = True
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,33 @@ float disk_rate(float r) {
     return disk_spin_sign * 2.0 / (rm * sqrt(rm) + turned_spin());
 }
 
+// Frame dragging of the ray model `kerr_like`, rad per r_s/c: the rate at which it turns light.
+float disk_dragged_rate(float r) {
+#if RAYS_MODEL_KERR_LIKE
+    return 0.5 * rays_kerr_like_drag * hole_spin / (r * r * r);
+#else
+    return 0.0;
+#endif
+}
+
+// By how much it carries matter round faster, along the orbit's own sense.
+float disk_flow_offset(float r) {
+#if RAYS_MODEL_KERR_LIKE && RAYS_KERR_LIKE_FLOW
+    return disk_spin_sign * disk_dragged_rate(r);
+#else
+    return 0.0;
+#endif
+}
+
+// How fast patterns of the disk are carried round at r, rad per r_s/c.
+float disk_pattern_rate(float r) {
+#if RAYS_MODEL_KERR_LIKE && RAYS_KERR_LIKE_PATTERN
+    return (disk_rate(r) + disk_dragged_rate(r)) * disk_noise_speed;
+#else
+    return disk_rate(r) * disk_noise_speed;
+#endif
+}
+
 // (g₀, δ), exact. x³ − 3x + 2a_t is formed as (x−1)²(x+2) − 2(1−a_t): near the ISCO of a fast hole the plain form loses
 // three digits. Where no circular orbit exists g₀ is 0.
 vec2 disk_shift_exact(float r, float lambda) {
@@ -45,15 +72,15 @@ float disk_azimuthal_cosine(float r, float lambda) {
 
 // The orbital-plane renderer's: δ = 1/(γ(1 − v·n)) with the local speed v = √(M/(r − 2M)), times √(1 − 1/r).
 vec2 disk_shift_s0(float r, float lambda) {
-    float v = min(sqrt(0.5 / max(r - 1.0, 1e-3)), 0.999);
+    float v = min(sqrt(0.5 / max(r - 1.0, 1e-3)) + r * disk_flow_offset(r) * inversesqrt(max(1.0 - 1.0 / r, 1e-3)), 0.999);
     float delta = sqrt(1.0 - v * v) / (1.0 - v * disk_azimuthal_cosine(r, lambda));
     return vec2(sqrt(max(1.0 - 1.0 / r, 0.0)), delta);
 }
 
 // BlackHoleGPU's: v = √((M/r)(1 − 3M/r)), D = γ(1 + β·n); no gravitational part.
 vec2 disk_shift_s1(float r, float lambda) {
-    float v2 = max(0.5 / r * (1.0 - 1.5 / r), 0.0);
-    return vec2(1.0, (1.0 + sqrt(v2) * disk_azimuthal_cosine(r, lambda)) * inversesqrt(1.0 - v2));
+    float v = min(sqrt(max(0.5 / r * (1.0 - 1.5 / r), 0.0)) + r * disk_flow_offset(r), 0.999);
+    return vec2(1.0, (1.0 + v * disk_azimuthal_cosine(r, lambda)) * inversesqrt(1.0 - v * v));
 }
 
 // λ, no larger along the orbit than light that passes r in the plane can have: the root of (r² + a² − aλ)² = Δ(λ − a)², M = 1
@@ -65,15 +92,39 @@ float possible_lambda(float r, float lambda) {
     return disk_spin_sign * min(disk_spin_sign * lambda, most);
 }
 
+// (g₀, δ), exact but for the dragging of `kerr_like`, which carries the matter round faster by ω: 1/u^t² is less by ω (2 Ω g_φφ + 2 g_tφ + ω g_φφ), and
+// δ = 1/(1 − (Ω + ω) λ). Bounded where that would be faster than light.
+vec2 disk_shift_dragged(float r, float lambda) {
+    vec2 shift = disk_shift_exact(r, lambda);
+    float rm = 2.0 * r, a = turned_spin();
+    float more = 0.5 * disk_flow_offset(r), rate = 0.5 * abs(disk_rate(r)); // per M
+    float area = rm * rm + a * a * (1.0 + 2.0 / rm);                        // g_φφ; g_tφ is −2a/r
+    float lost = more * (area * (2.0 * rate + more) - 4.0 * a / rm);
+    float clock = max(1.0 - lost / max(shift.x * shift.x, 1e-6), 0.02);
+    return vec2(shift.x * sqrt(clock), shift.y / max(1.0 - shift.y * more * disk_spin_sign * lambda, 0.05));
+}
+
 // (g₀, δ) by the formula the scene names.
 vec2 disk_shift(float r, float lambda) {
 #if DISK_FREQUENCY_SHIFT_S0
     return disk_shift_s0(r, lambda);
 #elif DISK_FREQUENCY_SHIFT_S1
     return disk_shift_s1(r, lambda);
+#elif RAYS_MODEL_KERR_LIKE && RAYS_KERR_LIKE_FLOW
+    return disk_shift_dragged(r, possible_lambda(r, lambda));
 #else
     return disk_shift_exact(r, possible_lambda(r, lambda));
 #endif
+}
+
+// Cosine between a photon and the orbit, as an observer without angular momentum (ZAMO) at r sees them: L_z over √g_φφ and over the photon's energy there
+// (Bardeen, Press & Teukolsky 1972). 1 where the matter comes straight at who sees the light.
+float disk_approach(float r, float lambda) {
+    float rm = 2.0 * r, a = turned_spin(), r2 = rm * rm;
+    float along = disk_spin_sign * possible_lambda(r, lambda);
+    float span = max(r2 - 2.0 * rm + a * a, 0.0);               // Δ
+    float area = r2 * (r2 + a * a) + 2.0 * a * a * rm;          // r² g_φφ
+    return clamp(along * r2 * sqrt(span) / max(area - 2.0 * a * rm * along, 1e-6 * area), -1.0, 1.0);
 }
 
 // Exact g = E_infinity / E_emitter.

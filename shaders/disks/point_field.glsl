@@ -29,7 +29,23 @@ help = "How much brighter the few boosted rings are."
 [parameters.turbulence]
 default = 0.6
 range = [0.0, 2.0]
-help = "Strength of the clumping of the points."
+help = "How much the points gather in clumps along the flow."
+
+[parameters.radial_turbulence]
+default = 0.0
+range = [0.0, 20.0]
+unit = "rings"
+help = "How far the rings swerve in and out of their radii, in rings of the coarsest size."
+
+[parameters.taper_inside]
+default = 0.06
+range = [0.001, 1.0]
+help = "Part of the disk's width in which the points fade out towards its inner edge."
+
+[parameters.taper_outside]
+default = 0.25
+range = [0.001, 1.0]
+help = "The same towards its outer edge."
 ---*/
 #include "common/noise.glsl"
 #include "common/rotation.glsl"
@@ -50,12 +66,12 @@ float ring_boost(float place, float wide) {
     return (1.0 + disk_point_field_ring_gain * chosen) / (1.0 + RINGS_CHOSEN * disk_point_field_ring_gain);
 }
 
-// Density of the points of one size in one phase of the shear, mean 1. Rings turn rigidly, each at its own Keplerian rate.
-float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
-    float place = log(matter.radius) * rings;
+// Density of the points of one size in one phase of the shear, mean 1. Rings turn rigidly, each at its own rate, and swerve by `swerve` in ln r.
+float points_of_size(DiskMatter matter, float rings, float swerve, float age, uint seed) {
+    float place = (log(matter.radius) + swerve) * rings;
     float ring = floor(place);
     float cells = floor(6.2831853 * rings);
-    float angle = -disk_rate(exp((ring + 0.5) / rings)) * disk_noise_speed * age;
+    float angle = -disk_pattern_rate(exp((ring + 0.5) / rings)) * age;
     vec2 turn = vec2(cos(angle), sin(angle));
     vec2 heading = vec2(turn.x * matter.heading.x - turn.y * matter.heading.y, turn.y * matter.heading.x + turn.x * matter.heading.y);
     float around = (atan(heading.y, heading.x) / 6.2831853 + 0.5) * cells;
@@ -76,10 +92,12 @@ float points_of_size(DiskMatter matter, float rings, float age, uint seed) {
 }
 
 float points_of_phase(DiskMatter matter, float age, float seed) {
-    float sum = points_of_size(matter, disk_point_field_rings, age, uint(seed) * 4u)
-              + points_of_size(matter, disk_point_field_rings * 1.6, age, uint(seed) * 4u + 1u)
-              + points_of_size(matter, disk_point_field_rings * 2.7, age, uint(seed) * 4u + 2u);
-    float clump = ring_noise(turns(matter.heading.x, matter.heading.y), 23.0, 6.0 * log(matter.radius), uint(seed));
+    float turn = turns(matter.heading.x, matter.heading.y);
+    float swerve = disk_point_field_radial_turbulence / disk_point_field_rings * ring_noise(turn, 7.0, 2.0 * log(matter.radius), uint(seed) * 4u + 3u);
+    float sum = points_of_size(matter, disk_point_field_rings, swerve, age, uint(seed) * 4u)
+              + points_of_size(matter, disk_point_field_rings * 1.6, swerve, age, uint(seed) * 4u + 1u)
+              + points_of_size(matter, disk_point_field_rings * 2.7, swerve, age, uint(seed) * 4u + 2u);
+    float clump = ring_noise(turn, 23.0, 6.0 * log(matter.radius), uint(seed));
     return sum / 3.0 * max(1.0 + 2.0 * disk_point_field_turbulence * clump, 0.0);
 }
 
@@ -87,7 +105,7 @@ DiskMatter disk_layer_point_field(DiskMatter matter) {
     float points = shear_phase.z * points_of_phase(matter, shear_phase.x, shear_seed.x)
                  + shear_phase.w * points_of_phase(matter, shear_phase.y, shear_seed.y);
     float depth = (matter.radius - disk_r_in) / (disk_r_out - disk_r_in);
-    float taper = smoothstep(0.0, 0.06, depth) * (1.0 - smoothstep(0.75, 1.0, depth));
+    float taper = smoothstep(0.0, disk_point_field_taper_inside, depth) * (1.0 - smoothstep(1.0 - disk_point_field_taper_outside, 1.0, depth));
     float bias = pow(disk_r_in / matter.radius, disk_point_field_inward_bias) * (1.0 + disk_point_field_inward_bias);
     matter.density *= mix(1.0, points * taper * bias, disk_point_field_share);
     return matter;

@@ -38,7 +38,7 @@ const float NOISE_DEVIATION = 0.24; // of ring_noise
 const float TURN = 6.2831853;
 
 DiskMatter disk_layer_turbulence(DiskMatter matter) {
-    float rate = disk_rate(matter.radius) * disk_noise_speed;
+    float rate = disk_pattern_rate(matter.radius);
     float slide = disk_spin_sign * disk_noise_speed * disk_turbulence_eddy_rate;
     vec2 ages = shear_phase.xy;
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw)); // two patterns mixed: the contrast of one

@@ -105,9 +105,11 @@ def test_radial_rays(strength):
 def test_kerr_like_is_schwarzschild_turned():
     directions = np.random.default_rng(3).normal(size=(50, 3)) * [4, 1, 1] * [-1, 1, 1]
     view = {"distance": 10, "inclination_deg": 60, "directions": directions}
-    plain, zero, one, mirrored = (trace(model, **view, **options) for model, options in (
-        ("schwarzschild", {}), ("kerr_like", {"spin": 0.9, "drag": 0.0}), ("kerr_like", {"spin": 0.9}), ("kerr_like", {"spin": -0.9})))
+    plain, zero, off, one, mirrored = (trace(model, **view, **options) for model, options in (
+        ("schwarzschild", {}), ("kerr_like", {"spin": 0.9, "drag": 0.0}), ("kerr_like", {"spin": 0.9, "twist": False}),
+        ("kerr_like", {"spin": 0.9}), ("kerr_like", {"spin": -0.9})))
     np.testing.assert_allclose(zero.direction, plain.direction, atol=1e-14)
+    np.testing.assert_array_equal(off.direction, zero.direction)
     np.testing.assert_array_equal(one.fate, plain.fate)
     np.testing.assert_allclose(one.crossing_r, plain.crossing_r, rtol=1e-10)
     np.testing.assert_allclose(one.theta, plain.theta, atol=1e-11)

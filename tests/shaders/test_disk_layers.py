@@ -10,7 +10,7 @@ import pytest
 from blackhole_gl.physics.shear import RENEWAL_PERIOD, shear_phases
 from tests.shaders.harness import Piece
 
-LAYERS = ("turbulence", "point_field")
+LAYERS = ("turbulence", "point_field", "lanes", "micro_turbulence", "dust")
 WIDTH, HEIGHT = 512, 128
 TEN_HOURS = 36_000.0 * 4.0
 
@@ -24,13 +24,14 @@ SNIPPET = """#version 330 core
 uniform vec2 azimuths;   // from, to
 uniform vec2 radii;
 uniform vec2 footprint;
+uniform float approach, doppler;
 out vec4 o;
 void main() {
     vec2 place = gl_FragCoord.xy / vec2(SIZE);
     float phi = mix(azimuths.x, azimuths.y, place.x);
-    DiskMatter matter = DiskMatter(mix(radii.x, radii.y, place.y), vec2(cos(phi), sin(phi)), footprint, 1.0);
+    DiskMatter matter = DiskMatter(mix(radii.x, radii.y, place.y), vec2(cos(phi), sin(phi)), footprint, approach, doppler, 1.0, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
-    o = vec4(matter.density);
+    o = vec4(matter.density, matter.gain, 0.0, 1.0);
 }
 """.replace("SIZE", f"{WIDTH}.0, {HEIGHT}.0")
 

@@ -30,15 +30,15 @@ def lambda_bounds(r: np.ndarray, a: float) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.fixture()
 def shifts(ctx, tmp_path):
-    """(spin, sense, radii in r_s float32, λ float32, function) → GLSL values of the function."""
+    """(spin, sense, radii in r_s float32, λ float32, function) → GLSL values of the function; with switches and uniforms of its own."""
 
-    def run(spin: float, sense: float, radius: np.ndarray, lam: np.ndarray, function: str) -> np.ndarray:
+    def run(spin: float, sense: float, radius: np.ndarray, lam: np.ndarray, function: str, switches=None, **uniforms) -> np.ndarray:
         path = tmp_path / "shift.frag"
         path.write_text(
             "#version 330 core\n#defines\n#blocks\n#include \"common/disk_orbit.glsl\"\nuniform sampler2D cases;\nout vec4 o;\n"
             f"void main() {{ vec4 c = texelFetch(cases, ivec2(gl_FragCoord.xy), 0); o = vec4({function}, 0.0, 0.0); }}\n"
         )
-        piece = Piece(ctx, path, hole_spin=spin, disk_spin_sign=sense, hole_spin_complement=1.0 - abs(spin))
+        piece = Piece(ctx, path, switches=switches, hole_spin=spin, disk_spin_sign=sense, hole_spin_complement=1.0 - abs(spin), **uniforms)
         cases = np.stack([radius, lam, lam, lam], -1).reshape(SIZE[1], SIZE[0], 4)
         return piece.table("cases", cases, nearest=True).draw(SIZE)[..., :2].reshape(-1, 2)
 
@@ -104,3 +104,46 @@ def test_light_that_cannot_be_there_is_shifted_as_the_most_that_can(shifts, spin
     at_most = shifts(spin, sense, radius, (sense * most).astype(np.float32), "disk_shift(c.x, c.y)")
     np.testing.assert_allclose(shifts(spin, sense, radius, beyond, "disk_shift(c.x, c.y)"), at_most, rtol=2e-4)
     assert np.all(at_most > 0.0) and np.all(np.isfinite(at_most))
+
+
+def metric(r: np.ndarray, a: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """g_tt, g_tφ, g_φφ in the plane. M = 1."""
+    return -(1.0 - 2.0 / r), np.full_like(r, -2.0 * a) / r, r * r + a * a * (1.0 + 2.0 / r)
+
+
+def cases_along(a: float, sense: float, inner: float) -> tuple[np.ndarray, np.ndarray]:
+    """Radii in r_s from `inner` ISCOs on and λ in M between those of tangential photons, float32."""
+    count = SIZE[0] * SIZE[1]
+    radius = (0.5 * isco(a) * inner * np.geomspace(1.0, 20.0, count)).astype(np.float32)
+    low, high = lambda_bounds(2.0 * radius.astype(float), a)
+    return radius, (sense * (low + (high - low) * np.random.default_rng(3).random(count))).astype(np.float32)
+
+
+@pytest.mark.parametrize("spin", [0.0, 0.9, 0.998, -0.998])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_cosine_between_light_and_matter_is_a_zamos(shifts, spin: float, sense: float) -> None:
+    """p_φ/√g_φφ over the energy (1 − ωλ)/√(−g^tt). Float32: 1e-5 beside λ's own bound."""
+    a = spin * sense
+    radius, lam = cases_along(a, sense, 1.0)
+    r, along = 2.0 * radius.astype(float), sense * lam.astype(float)
+    g_tt, g_tp, g_pp = metric(r, a)
+    lapse = np.sqrt(g_tp * g_tp / g_pp - g_tt)
+    exact = along / np.sqrt(g_pp) * lapse / (1.0 + g_tp / g_pp * along)
+    assert np.abs(exact).max() > 0.99
+    np.testing.assert_allclose(shifts(spin, sense, radius, lam, "disk_approach(c.x, c.y), 0.0")[:, 0], exact, atol=2e-5)
+
+
+@pytest.mark.parametrize("spin", [0.6, -0.6])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_dragged_matter_has_the_g_of_its_rate(shifts, spin: float, sense: float) -> None:
+    """1/(u^t (1 − Ωλ)) with Ω that of a circular orbit and the dragging's, 0.5 k a*/r³ (r in r_s). Float32: 2e-5, as the exact g."""
+    a = spin * sense
+    radius, lam = cases_along(a, sense, 1.5)
+    r, along = 2.0 * radius.astype(float), sense * lam.astype(float)
+    rate = 1.0 / (r**1.5 + a) + 0.5 * (0.5 * a * 1.5 / radius.astype(float) ** 3)
+    g_tt, g_tp, g_pp = metric(r, a)
+    clock = -g_tt - 2.0 * g_tp * rate - g_pp * rate * rate
+    assert clock.min() > 0.05
+    switches = {"RAYS_MODEL_KERR_LIKE": 1, "RAYS_KERR_LIKE_FLOW": 1}
+    got = shifts(spin, sense, radius, lam, "disk_shift(c.x, c.y)", switches, rays_kerr_like_drag=1.5).prod(-1)
+    np.testing.assert_allclose(got, np.sqrt(clock) / (1.0 - rate * along), rtol=2e-5)

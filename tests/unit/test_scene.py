@@ -52,6 +52,12 @@ def test_ranges_reach_what_was_asked_for():
     assert distance.low < 0.54, "just outside the horizon of a hole with spin 0.998 is 0.532 r_s"
 
 
+def test_a_disk_moves_where_a_layer_of_it_does():
+    still = Scene().with_values({"disk.turbulence": False, "disk.lensing_flare": True, "disk.beaming_boost": True})
+    assert Scene().disk_moves and still.with_values({"disk.lanes": True}).disk_moves
+    assert not still.disk_moves and not Scene().with_values({"disk.enabled": False}).disk_moves
+
+
 def test_values_go_in_and_come_out():
     scene = Scene().with_values({"hole.spin": 0.5, "disk.outer_radius": 12, "camera.observer": "zamo", "disk.turbulence.contrast": 1.5})
     assert scene.hole.spin == 0.5
