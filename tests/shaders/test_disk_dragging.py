@@ -14,9 +14,8 @@ EFFECTS = ("twist", "flow", "pattern")
 
 def scene_with(*effects: str, drag: float = 6.0, **values: object) -> Scene:
     chosen = {f"rays.kerr_like.{name}": name in effects for name in EFFECTS}
-    return presets.load(["kerr"]).with_values({
-        "rays.model": "kerr_like", "rays.kerr_like.drag": drag, "sky.enabled": False, **chosen, **{key.replace("__", ".", 1): value for key, value in values.items()},
-    })  # fmt: skip
+    own = {key.replace("__", ".", 1): value for key, value in values.items()}
+    return presets.load(["kerr"]).with_values({"rays.model": "kerr_like", "rays.kerr_like.drag": drag, "sky.enabled": False, **chosen, **own})
 
 
 def light(renderer: Renderer, scene: Scene, time: float = 47.0) -> np.ndarray:
