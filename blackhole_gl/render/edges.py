@@ -25,6 +25,9 @@ from .temperatures import TemperatureProfile
 # Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame.
 _MOVING_SIDE = 2
 
+# Room for the column and row of a block in the numbers by which it is told what has changed.
+_COLUMN_BITS, _ENTRY_BITS = 8, 28
+
 # Depth of the pixels at edges and of all others, and between the two.
 _EDGE, _OTHER, _BETWEEN = 0.25, 0.75, 0.5
 
@@ -164,20 +167,24 @@ class _Places:
         self._depth = ctx.depth_texture(size)
         self._host = np.full(size[::-1], _OTHER, np.float32)
         self._blocks = np.zeros((*size[::-1], 2), np.float16)
+        self._entries = np.empty(0, np.int64)  # place and block of each pixel, in one number
+        self._is_new = True
         self._frame: moderngl.Framebuffer | None = None
 
     def write(self, pixels: np.ndarray, blocks: np.ndarray) -> None:
         """The `pixels` have these `blocks`, each (N, 2), and no others have any."""
-        columns, rows = pixels.T
-        (x, y), (right, top) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
-        box = x, y, right + 1 - x, top + 1 - y
-        _part(self._host, self.box)[:] = _OTHER
-        self._host[rows, columns] = _EDGE
-        self._blocks[rows, columns] = blocks
-        for part in (self.box, box):
+        places = pixels[:, 1] * self.size[0] + pixels[:, 0]
+        entries = (places << _ENTRY_BITS) + (blocks[:, 1] << _COLUMN_BITS) + blocks[:, 0]
+        changed = np.setxor1d(entries, self._entries, assume_unique=True) >> _ENTRY_BITS
+        self._host.ravel()[self._entries >> _ENTRY_BITS] = _OTHER
+        self._host.ravel()[places] = _EDGE
+        self._blocks[pixels[:, 1], pixels[:, 0]] = blocks
+        self._entries, self.box = entries, _box_of(pixels)
+        if self._is_new or len(changed):
+            part = (0, 0, *self.size) if self._is_new else _box_of(np.stack([changed % self.size[0], changed // self.size[0]], axis=-1))
             self._depth.write(_part(self._host, part).tobytes(), part)
-        self.block_of_pixel.write(_part(self._blocks, box).tobytes(), box)
-        self.box = box
+            self.block_of_pixel.write(_part(self._blocks, part).tobytes(), part)
+        self._is_new = False
 
     def frame(self, target: Target) -> moderngl.Framebuffer:
         """Draws into `target` with the pixels' depth, which it leaves as it is."""
@@ -195,6 +202,12 @@ class _Places:
             if item is not None:
                 item.release()
         self._frame = None
+
+
+def _box_of(pixels: np.ndarray) -> Box:
+    """The smallest that holds `pixels` (N, 2), of which there is one at least."""
+    (x, y), (right, top) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
+    return x, y, right + 1 - x, top + 1 - y
 
 
 def _part(whole: np.ndarray, box: Box) -> np.ndarray:
