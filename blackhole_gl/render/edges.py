@@ -22,8 +22,9 @@ from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
 
-# Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame.
-_MOVING_SIDE = 2
+# Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame; and of a pixel that stands for more than `_COARSE` of the
+# screen's along each, in a picture that is drawn so coarse: it has fewer of them, and a ring that is a few hundredths of one wide would be a row of beads.
+_MOVING_SIDE, _COARSE_SIDE, _COARSE = 2, 4, 2.5
 
 # Room for the column and row of a block in the numbers by which it is told what has changed.
 _COLUMN_BITS, _ENTRY_BITS = 8, 28
@@ -64,7 +65,7 @@ class EdgeRays:
             moving: fewer rays will do, as for every map that is not sharp.
         """
         moving = moving or not hit_map.is_sharp
-        side = _side(inputs.plan.scene.rays.edges, moving=moving)
+        side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=moving)
         plan = inputs.plan
         key = (hit_map.generation, side, moving, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
@@ -144,11 +145,12 @@ class EdgeRays:
         return made
 
 
-def _side(asked: int, *, moving: bool) -> int:
-    """Rays along each axis: even where there are several, as changes are taken between two and two of them."""
+def _side(asked: int, finer: float, *, moving: bool) -> int:
+    """Rays along each axis: even where there are several, as changes are taken between two and two of them. `finer`: the picture's size over that shown."""
     if asked == 1:
         return 1
-    return _MOVING_SIDE if moving else asked + asked % 2
+    even = asked + asked % 2
+    return min(even, _COARSE_SIDE if finer * _COARSE < 1.0 else _MOVING_SIDE) if moving else even
 
 
 class _Places:

@@ -117,7 +117,8 @@ class Renderer:
             viewport: (x, y, width, height) in the target; the whole picture at (0, 0) when None.
             measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
-                further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays.
+                further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays, or
+                sixteen where they are far coarser than those `shown`.
             glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``. Where a thing
                 has moved in it, pixels at edges have four rays.
             shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
