@@ -21,6 +21,7 @@ from . import (
     bar,
     commands,
     file_commands,
+    glfw_window,
     help_window,
     kept,
     keys,
@@ -176,7 +177,7 @@ class Window:
         self.key_file = user_config_dir() / "keys.toml"
         self.bindings = self._read_keys()
         self._picture: Picture | None = None
-        self._shortcuts = Shortcuts(self.bindings, Layout(_key_name, _is_key_down))
+        self._shortcuts = Shortcuts(self.bindings, Layout(glfw_window.key_name, glfw_window.is_key_down))
         self._mouse = Mouse()
         self._panel_width = PanelWidth(self.kept.first_panel_em)
         self._gesture = Gesture()
@@ -221,7 +222,7 @@ class Window:
         """Once, when the context is there."""
         self._gl = moderngl.create_context(require=330)
         self._picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
-        self._full_screen = FullScreen(_glfw_window())
+        self._full_screen = FullScreen(glfw_window.handle())
         self._thumbnails = Thumbnails(self._gl)
 
     @property
@@ -245,7 +246,7 @@ class Window:
         measuring = self.live_chart.busy(self.state) or self.path_view.busy or self.picture_window.busy or self.side_by_side.busy(self.state)
         busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
-        params.fps_idling.enable_idling = self._may_idle and (self._is_minimised() or preparing or not busy)
+        params.fps_idling.enable_idling = self._may_idle and (glfw_window.is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
         self._full_screen.set(self.state.full_screen)
 
@@ -300,7 +301,7 @@ class Window:
     def draw_picture(self) -> None:
         """Renders what changed and fills the free part of the window."""
         view = self.view()
-        if view.area.is_empty or self._is_minimised():
+        if view.area.is_empty or glfw_window.is_minimised():
             return
         window = self._gl.detect_framebuffer()
         self._render(view.area, window)
@@ -343,9 +344,6 @@ class Window:
         """Whether the picture that rests is still to come."""
         return self.state.render_error is None and not self.picture.is_final
 
-    def _is_minimised(self) -> bool:
-        return bool(glfw.get_window_attrib(_glfw_window(), glfw.ICONIFIED))
-
     def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state
         editing = self._editing.lasts(state.scene)
@@ -384,17 +382,3 @@ class Window:
             self.state.shader_error = shader_watch.mistakes(programs.errors)
             self.picture.forget()
             self.side_by_side.reload()
-
-
-def _key_name(key: int) -> str | None:
-    return glfw.get_key_name(key, 0) if glfw.get_key_scancode(key) >= 0 else None  # asked for a key that the keyboard lacks, it complains on the terminal
-
-
-def _is_key_down(key: int) -> bool:
-    return glfw.get_key(_glfw_window(), key) == glfw.PRESS
-
-
-def _glfw_window() -> Any:
-    from imgui_bundle.glfw_utils import glfw_window_hello_imgui
-
-    return glfw_window_hello_imgui()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..shapes import Bool, Int
-from .hit_map import FreshBlocks
+from .ray_blocks import FreshBlocks
 from .squares import Squares
 
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.

@@ -12,9 +12,10 @@ import numpy as np
 from .classes import Where, drawn
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
-from .hit_map import HitMap, RayBlocks
+from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
+from .ray_blocks import RayBlocks
 from .shading import Box, ShadePass
 from .sorting import PixelSorting, hides
 from .squares import Squares

@@ -6,7 +6,7 @@ turns it to the world.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count
 
 import moderngl
@@ -14,13 +14,15 @@ import numpy as np
 
 from ..physics.observer import cos_sin_deg
 from ..plan import REACH_STEP, REFINE_STEP, Plan
-from . import hit_texels, instances, reach, refinement
+from . import hit_texels, reach, refinement
 from .classes import NO_THINGS, OWN_RAYS, THINGS
+from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instance_numbers import Number
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
+from .ray_blocks import IN_BLOCKS, FreshBlocks, RayBlocks
 from .squares import Squares
 from .tables import Tables
 from .target import Target
@@ -28,53 +30,10 @@ from .target import Target
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
 
-
 _GENERATIONS = count(1)
-
-
-@dataclass(frozen=True, eq=False)
-class RayBlocks:
-    """Blocks of rays, each of one pixel, that a map may hold instead of a ray for each pixel of a picture.
-
-    Attributes:
-        side: rays along each axis of a pixel.
-        pixels: RG32F, each block's pixel, from the bottom left.
-    """
-
-    side: int
-    pixels: moderngl.Texture
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """(width, height) of the map."""
-        return self.side * self.pixels.width, self.side * self.pixels.height
-
-    @property
-    def samplers(self) -> dict[str, moderngl.Texture]:
-        """What shaders/common/observer.glsl reads, by name."""
-        return {"block_pixels": self.pixels}
-
-
-@dataclass(frozen=True, eq=False)
-class FreshBlocks:
-    """Which blocks of a map are to be traced, as squares of it.
-
-    Attributes:
-        seeking: of rays that look for things and media.
-        others: of rays that end on nothing but the hole.
-        changed: holds all of them; None where the map holds no others that stand.
-    """
-
-    seeking: tuple[Squares, ...]
-    others: tuple[Squares, ...]
-    changed: Squares | None
-
 
 # Share of a picture beyond which changed squares are not worth their own draw.
 _MOST_CHANGED = 0.5
-
-# What shaders that draw rays of blocks are composed with.
-_IN_BLOCKS = {"RAYS_IN_BLOCKS": 1}
 
 
 class HitMap:
@@ -101,7 +60,7 @@ class HitMap:
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._key: tuple | None = None  # of all but the things and media, which have a key of their own
-        self._met: _Met = _NOTHING_MET
+        self._met: FrameMet = NOTHING_MET
         self._reach = reach.Reach(ctx, programs, tables)
         self._changed: tuple[int, Squares] | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
@@ -127,7 +86,7 @@ class HitMap:
         refined = progressive and plan.refine_px > 0.0
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
         stands = held and (refined or self.is_sharp)
-        before, self._met = self._met, _Met.of(inputs)
+        before, self._met = self._met, FrameMet.of(inputs)
         changed = self._squares_changed(inputs, before) if stands else None
         held = held and changed is not None
         self.sharpened = refined and held and not self.is_sharp
@@ -155,7 +114,7 @@ class HitMap:
         """The squares of a sharp map that alone differ from what it was at that `generation`; None where all of it may."""
         return self._changed[1] if self._changed is not None and self._changed[0] == generation else None
 
-    def _squares_changed(self, inputs: FrameInputs, before: _Met) -> Squares | None:
+    def _squares_changed(self, inputs: FrameInputs, before: FrameMet) -> Squares | None:
         """What may show the things and media that are other than those `before`; None where that may be most of the picture."""
         now = self._met
         if now.kinds != before.kinds:
@@ -177,7 +136,7 @@ class HitMap:
         if fresh.changed is None:
             target.clear()
         for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
-            rays = self._programs.get("trace.frag", inputs, _IN_BLOCKS | switches)
+            rays = self._programs.get("trace.frag", inputs, IN_BLOCKS | switches)
             rays.sample(blocks.samplers)
             rays.set(block_side=float(blocks.side))
             self._bind_tables(rays)
@@ -231,7 +190,7 @@ class HitMap:
 
     def switches(self) -> dict[str, int]:
         """The switches that shaders which read the map are to be composed with."""
-        return {"HIT_MAP_REFINED": int(not self.is_sharp), **(_IN_BLOCKS if self._blocks else {})}
+        return {"HIT_MAP_REFINED": int(not self.is_sharp), **(IN_BLOCKS if self._blocks else {})}
 
     def switches_where_flat(self) -> dict[str, int] | None:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
@@ -411,32 +370,6 @@ class HitMap:
 def _texels(texture: moderngl.Texture) -> np.ndarray:
     """The texels (height, width, 4) of an RGBA32F texture. Waits for the GPU."""
     return np.frombuffer(texture.read(), np.float32).reshape(texture.height, texture.width, 4)
-
-
-@dataclass(frozen=True, eq=False)
-class _Met:
-    """The things and media of a frame.
-
-    Attributes:
-        kinds: of each.
-        key: what its hits depend on, of each.
-        balls: that hold each, (N, 4).
-    """
-
-    kinds: tuple
-    key: tuple
-    balls: np.ndarray
-
-    @classmethod
-    def of(cls, inputs: FrameInputs) -> _Met:
-        """Those of `inputs`."""
-        if not inputs.plan.meetings:
-            return _NOTHING_MET
-        key = instances.key(inputs.plan, inputs.time)
-        return cls(tuple(entry[:2] for entry in key), key, reach.balls(inputs.plan, inputs.time))
-
-
-_NOTHING_MET = _Met((), (), np.empty((0, 4)))
 
 
 def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
