@@ -23,14 +23,14 @@ class LabelOverlay:
         self._shown = labels.Labels()
 
     def draw(self, state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
-        """Draws the labels over the picture, whose top left is `corner`; while the camera moves they follow those of the frame before."""
+        """Draws the labels over the picture, whose top left is `corner`; they follow those of the frame before."""
         if not state.scene.post.labels or size[1] < 1.0:
             return
         aspect = size[0] / size[1]
         of = labels.shape_of(state.scene), aspect
         if of != self._of:
             try:
-                self._shown = labels.after(self._shown, state.scene, aspect) if state.camera_moves else labels.of(state.scene, aspect)
+                self._shown = labels.after(self._shown, state.scene, aspect)
             except ValueError:  # the picture fails for the same reason, which is told
                 return
             self._of = of

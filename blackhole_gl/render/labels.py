@@ -101,7 +101,7 @@ def of(scene: Scene, aspect: float) -> Labels:
 
 
 def after(before: Labels, scene: Scene, aspect: float) -> Labels:
-    """What `of` gives, sooner where `scene` is much like that of `before`, as from frame to frame of a camera that moves.
+    """What `of` gives, sooner where `scene` is much like that of `before`, as from frame to frame of a camera that moves or a value that is dragged.
 
     Raises:
         As `of`.

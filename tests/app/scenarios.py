@@ -494,9 +494,8 @@ def values_under_the_mouse(hands: Hands) -> None:
 
 def labels_by_key(hands: Hands) -> None:
     """L names what the picture shows; while the camera moves the labels are those of where it is, and nothing is worked out where it turns about the axis."""
-    asked, kept = [], (labels.of, labels.after)
-    labels.of = lambda scene, aspect: asked.append(scene) or kept[0](scene, aspect)
-    labels.after = lambda before, scene, aspect: asked.append(scene) or kept[1](before, scene, aspect)
+    asked, after = [], labels.after
+    labels.after = lambda before, scene, aspect: asked.append(scene) or after(before, scene, aspect)
     try:
         hands.context.yield_(3)
         assert not asked
@@ -521,7 +520,7 @@ def labels_by_key(hands: Hands) -> None:
         hands.context.yield_(3)
         assert not asked and not hands.scene.post.labels
     finally:
-        labels.of, labels.after = kept
+        labels.after = after
 
 
 def save_picture(hands: Hands) -> Path:
