@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class EdgeBlocks:
         """Blocks along each axis of the map."""
         return _IN_A_ROW, self.rows
 
-    @property
+    @cached_property
     def places(self) -> Int[np.ndarray, "pixels 2"]:
         """Column and row of each pixel's block."""
         return _places(self.numbers)

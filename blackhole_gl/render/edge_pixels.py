@@ -91,11 +91,11 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
 def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     """Within or beside which of `pixels` (N, 2) of `marks` (height, width) a thing or a medium is met, bool (N,)."""
     height, width = marks.shape
-    columns, rows = pixels.T
-    found = np.zeros(len(pixels), bool)
-    for up in (-1, 0, 1):
-        for right in (-1, 0, 1):
-            there = marks[np.clip(rows + up, 0, height - 1), np.clip(columns + right, 0, width - 1)]
+    flat, found = marks.ravel(), np.zeros(len(pixels), bool)
+    columns, rows = (np.clip(places + np.array([[-1], [0], [1]]), 0, side - 1) for places, side in zip(pixels.T, (width, height)))
+    for row in rows * width:
+        for column in columns:
+            there = flat[row + column]
             found |= _has_ray(there) & (there >> 8 & EdgeMark.MET != 0)
     return found
 
