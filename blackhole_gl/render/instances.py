@@ -108,7 +108,7 @@ class InstanceTables:
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
-        self._kept: dict[str, tuple[bytes, moderngl.Texture]] = {}
+        self._kept: dict[str, tuple[np.ndarray, moderngl.Texture]] = {}
         self._made: tuple[Plan, float, dict[str, moderngl.Texture]] | None = None
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
@@ -131,16 +131,16 @@ class InstanceTables:
         self._kept, self._made = {}, None
 
     def _texture(self, name: str, values: np.ndarray) -> moderngl.Texture:
-        data, size = values.tobytes(), (values.shape[1], values.shape[0])
+        size = values.shape[1], values.shape[0]
         before, texture = self._kept.get(name, (None, None))
         if texture is None or texture.size != size:
             if texture is not None:
                 texture.release()
-            texture = self._ctx.texture(size, 4, data, dtype="f4")
+            texture = self._ctx.texture(size, 4, values.tobytes(), dtype="f4")
             texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        elif data != before:
-            texture.write(data)
-        self._kept[name] = data, texture
+        elif before is None or values is not before and values.tobytes() != before.tobytes():
+            texture.write(values.tobytes())
+        self._kept[name] = values, texture
         return texture
 
 

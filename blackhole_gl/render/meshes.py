@@ -23,7 +23,8 @@ TEXELS = 9  # of a triangle; shaders/things/mesh.glsl says what they hold
 ROW = 64  # triangles in a row of the texture
 
 _FILES = MeshFiles()
-_MADE: dict[tuple[tuple[str, Stamp], ...], Meshes] = {}  # the last: a slider builds nothing anew
+_MADE: dict[tuple[tuple[str, Stamp], ...], Meshes] = {}  # the last few: neither a slider nor going to and fro between scenes builds anything anew
+_MOST_MADE = 3
 
 
 def is_mesh(item: Field) -> bool:
@@ -57,7 +58,8 @@ def of(scene: Scene) -> Meshes | None:
     read = [(value, *_FILES.read(key, value)) for value, key in named.items() if value]
     place = tuple((value, stamp) for value, stamp, _ in read)
     if place not in _MADE:
-        _MADE.clear()
+        while len(_MADE) >= _MOST_MADE:
+            _MADE.pop(next(iter(_MADE)))
         _MADE[place] = _made([(value, mesh) for value, _, mesh in read])
     return _MADE[place]
 

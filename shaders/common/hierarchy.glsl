@@ -5,8 +5,9 @@ const int ROW_BITS = 8;  // nodes in a row of the texture, as a power of two
 
 // A straight piece from x, as boxes are tested against it.
 struct Piece {
-    vec3 x, inverse;  // 1/(y − x)
-    float pad;        // boxes are wider by it
+    vec3 x, way, inverse;  // y − x, and 1/(y − x)
+    vec3 to_low, to_high;  // x for the low and the high sides of boxes, which are farther out by the pad
+    float pad, per_way2;   // and 1/|y − x|²
 };
 
 struct Node {
@@ -14,10 +15,10 @@ struct Node {
 };
 
 Piece piece_of(vec3 x, vec3 y, float stray) {
-    vec3 way = y - x;
-    way = mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
+    vec3 way = y - x, divisor = mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
     vec3 size = max(abs(x), abs(y));
-    return Piece(x, 1.0 / way, stray + 1e-6 * max(max(size.x, size.y), size.z));  // and what rounding takes
+    float pad = stray + 1e-6 * max(max(size.x, size.y), size.z);  // and what rounding takes
+    return Piece(x, way, 1.0 / divisor, x + pad, x - pad, pad, 1.0 / max(dot(way, way), 1e-30));
 }
 
 Node fetch_node(sampler2D nodes, int node) {
@@ -29,7 +30,7 @@ Node fetch_node(sampler2D nodes, int node) {
 // Whether the piece meets the node's box before its part `most`.
 bool meets_box(Piece piece, Node node, float most) {
 #if RAYS_BOUNDS
-    vec3 a = (node.low.xyz - piece.pad - piece.x) * piece.inverse, b = (node.high.xyz + piece.pad - piece.x) * piece.inverse;
+    vec3 a = (node.low.xyz - piece.to_low) * piece.inverse, b = (node.high.xyz - piece.to_high) * piece.inverse;
     vec3 into = min(a, b), out_of = max(a, b);
     return max(max(into.x, into.y), max(into.z, 0.0)) <= min(min(out_of.x, out_of.y), min(out_of.z, most));
 #else
@@ -49,4 +50,25 @@ float half_width(Node node) {
 // Where the walk goes on from `here`, the node with the number `number`; −1 at its end.
 int next_node(Node here, int number, bool met) {
     return met && !is_leaf(here) ? number + 1 : int(here.low.w);
+}
+
+// Whether the piece comes into the largest ball that fits into the leaf's box, wider by the pad: an instance lies within that.
+bool meets_ball(Piece piece, Node leaf) {
+    float radius = half_width(leaf) + piece.pad;
+    vec3 off = 0.5 * (leaf.low.xyz + leaf.high.xyz) - piece.x;
+    off -= clamp(dot(off, piece.way) * piece.per_way2, 0.0, 1.0) * piece.way;
+    return dot(off, off) <= radius * radius;
+}
+
+// The first leaf from the node `number` on that the piece meets before its part `most`, where `balls` the ball in it; −1: none. What is done at a leaf stands outside
+// this loop, as every branch runs in every round; a round more leaves a piece that is done where it is (docs/llvmpipe.md).
+int next_leaf(sampler2D nodes, Piece piece, int number, float most, const bool balls, out Node node) {
+    bool found;
+    do {
+        node = fetch_node(nodes, number);
+        bool met = meets_box(piece, node, most);
+        found = met && is_leaf(node) && (!balls || meets_ball(piece, node));
+        number = found || number < 0 ? number : next_node(node, number, met);
+    } while (!found && number >= 0);
+    return number;
 }

@@ -91,11 +91,6 @@ struct Found {
 
 const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
 
-// Whether the piece from x to y comes into the ball of that radius about the middle of a leaf's box: an instance lies within the largest that fits into its own.
-bool meets_ball(Node leaf, float radius, vec3 x, vec3 y) {
-    return beside(0.5 * (leaf.low.xyz + leaf.high.xyz) - x, y - x) <= radius * radius;
-}
-
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
 // `stray`, the piece is too long for what it is near to, and nothing else is told.
 Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
@@ -104,17 +99,17 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
     int number = stray < 1e29 ? first : -1;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
     while (number >= 0) {
-        Node node = fetch_node(meeting_nodes, number);
-        bool met = meets_box(piece, node, min(found.at, 1.0));
-        float size = half_width(node);
-        if (met && is_leaf(node) && meets_ball(node, size + piece.pad, x, y)) {
+        Node leaf;
+        number = next_leaf(meeting_nodes, piece, number, min(found.at, 1.0), true, leaf);
+        if (number >= 0) {
+            float size = half_width(leaf);
             allowed = min(allowed, max(stray_allowed(size), piece.pad - stray));  // no finer than single precision
-            int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
+            int kind = int(leaf.high.w) & 31, index = int(leaf.high.w) >> 5;
             bool enters;
             float part = met_part(kind, index, size, x, y, enters);
             if (part < found.at) found = Found(kind, index, part, size, enters);
+            number = stray > allowed ? -1 : int(leaf.low.w);
         }
-        number = stray > allowed ? -1 : next_node(node, number, met);
     }
     return found;
 }
@@ -144,7 +139,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     while (number >= 0) {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
-        near = met && is_leaf(node) && meets_ball(node, half_width(node) + piece.pad, x, y);
+        near = met && is_leaf(node) && meets_ball(piece, node);
 #if MEETINGS_BY_DISTANCE
         int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);

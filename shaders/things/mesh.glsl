@@ -66,13 +66,13 @@ MeshSpot meet_mesh(int root, vec3 x, vec3 y) {
     Piece piece = piece_of(x, y, 0.0);
     int number = root;
     while (number >= 0) {
-        Node node = fetch_node(mesh_nodes, number);
-        bool met = meets_box(piece, node, min(found.part, 1.0));
-        if (met && is_leaf(node)) {
-            int first = int(node.high.w) >> 2, last = first + (int(node.high.w) & 3);
+        Node leaf;
+        number = next_leaf(mesh_nodes, piece, number, min(found.part, 1.0), false, leaf);
+        if (number >= 0) {
+            int first = int(leaf.high.w) >> 2, last = first + (int(leaf.high.w) & 3);
             for (int triangle = first; triangle <= last; ++triangle) meet_triangle(triangle, x, y - x, found);
+            number = int(leaf.low.w);
         }
-        number = next_node(node, number, met);
     }
     return found;
 }

@@ -58,3 +58,25 @@ def test_an_equal_scene_read_anew_costs_no_more(renderer: Renderer) -> None:
     assert scene.things is not equal.things
     frames = [_calls(renderer, _moving(one, frame), 0.1) for frame, one in enumerate((scene, scene, equal, equal, equal, equal))]
     assert min(frames[4:]) < 1.1 * frames[1] + 490, frames
+
+
+def test_small_things_before_a_large_one_leave_its_other_pixels_as_they_are(renderer: Renderer) -> None:
+    """Near a small one a way is cut into shorter pieces, each looked at from the first thing on that the longer one came near to: that may be the large one."""
+    rng, size = np.random.default_rng(3), (160, 90)
+    steps = {"rays.model": "kerr", "rays.integrator": "nystrom5", "rays.step_control": "mino", "rays.step_angle": 0.03}  # short: the large one allows a whole
+    values: dict[str, object] = {"hole.spin": 0.9, "rays.edges": 1, "disk.enabled": False, **steps}
+    values |= {"things.large.kind": "sphere", "things.large.x": 6.0, "things.large.z": 1.0, "things.large.radius": 2.5}
+    large = presets.load(["kerr"], values)
+    for number, way in enumerate(rng.normal(size=(400, 3))):
+        x, y, z = map(float, (6.0, 0.0, 1.0) + way / np.linalg.norm(way) * 2.56)
+        values |= {f"things.small_{number}.{name}": value for name, value in {"kind": "sphere", "radius": 0.04, "x": x, "y": y, "z": z}.items()}
+    found = []
+    for scene in (large, presets.load(["kerr"], values)):
+        renderer.render(scene, 0.0, size)
+        found.append(renderer.hits())
+    of_large = [(hits.met[..., 0, 0] >= 0) & (hits.met[..., 0, 1] == 0) for hits in found]
+    small = (found[1].met[..., 0, 0] >= 0) & ~of_large[1]
+    assert of_large[0].sum() > 500 and small.sum() > 30
+    np.testing.assert_array_equal(of_large[1], of_large[0] & ~small)
+    apart = np.linalg.norm(found[1].met_place[of_large[1], 0] - found[0].met_place[of_large[1], 0], axis=-1)
+    assert apart.max() < 1e-3, "r_s: pieces stray by no more than that, and the place is stepped to again"
