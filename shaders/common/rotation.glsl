@@ -1,16 +1,25 @@
 // Rotations by an angle, without the driver's sin and cos, whose accuracy the standard leaves open.
 
-// (cos, sin) of `angle` in radians, |angle| < 1000: reduction to ±π/4 in two parts (Cody & Waite), then Taylor
-// polynomials whose remainder at π/4 is below 2e-9.
-vec2 cos_sin(float angle) {
-    float quarter = floor(angle * 0.636619772 + 0.5);
-    float x = (angle - quarter * 1.5707855225) - quarter * 1.0804334124e-5;
+// (cos, sin) of x beyond so many quarters of a turn, |x| ≤ π/4: Taylor polynomials whose remainder at π/4 is below 2e-9.
+vec2 cos_sin_beside(int quarter, float x) {
     float x2 = x * x;
     float s = x * (1.0 + x2 * (-1.66666667e-1 + x2 * (8.33333333e-3 + x2 * (-1.98412698e-4 + x2 * 2.75573192e-6))));
     float c = 1.0 + x2 * (-0.5 + x2 * (4.16666667e-2 + x2 * (-1.38888889e-3 + x2 * (2.48015873e-5 - x2 * 2.75573192e-7))));
-    int octant = int(quarter) & 3;
+    int octant = quarter & 3;
     vec2 turned = (octant & 1) == 0 ? vec2(c, s) : vec2(-s, c);
     return octant < 2 ? turned : -turned;
+}
+
+// (cos, sin) of `angle` in radians, |angle| < 1000: reduction to ±π/4 in two parts (Cody & Waite).
+vec2 cos_sin(float angle) {
+    float quarter = floor(angle * 0.636619772 + 0.5);
+    return cos_sin_beside(int(quarter), (angle - quarter * 1.5707855225) - quarter * 1.0804334124e-5);
+}
+
+// The same of an angle in whole turns.
+vec2 cos_sin_turns(float turn) {
+    float quarter = floor(4.0 * turn + 0.5);
+    return cos_sin_beside(int(quarter), 1.57079633 * (4.0 * turn - quarter));
 }
 
 // `v` turned by the angle whose (cos, sin) is `turn`.

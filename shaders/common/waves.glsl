@@ -9,8 +9,7 @@ const vec4 WAVE[WAVES] = vec4[WAVES](  // cycles a unit of length, and the phase
 vec4 waves(vec3 x) {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < WAVES; ++i) {
-        float turn = dot(WAVE[i].xyz, x) + WAVE[i].w;
-        vec2 wave = cos_sin(6.28318531 * (turn - floor(turn)));
+        vec2 wave = cos_sin_turns(dot(WAVE[i].xyz, x) + WAVE[i].w);
         float share = i < 3 ? 2.0 / 9.0 : 1.0 / 9.0;
         sum += share * vec4(-6.28318531 * wave.y * WAVE[i].xyz, wave.x);
     }
