@@ -120,7 +120,8 @@ def _of_instances() -> Iterator[Wanted]:
             except SceneError:
                 continue  # this model cannot
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
-            for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1})):
+            beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
+            for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1}), ("trace.frag", beside_none)):
                 yield path, f"{kind} by {model}", made, switches
             if made.integrator is not None:  # rays in closed form are not looked for coarsely
                 yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
