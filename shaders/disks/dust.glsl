@@ -22,6 +22,12 @@ range = [0.05, 4.0]
 unit = "1/r_s"
 help = "Frequency of the coarsest octave."
 
+[parameters.stretch]
+default = 1.0
+range = [0.25, 16.0]
+unit = "×"
+help = "How much longer the clouds are along the flow than published, where a radian is as long as two r_s across."
+
 [parameters.rate]
 default = 0.06
 range = [0.0, 1.0]
@@ -44,7 +50,7 @@ DiskMatter disk_layer_dust(DiskMatter matter) {
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));
     vec2 slid = (disk_spin_sign * disk_dust_rate / DUST_TURN) * shear_phase.xy;
     float turn = turns(matter.heading.x, matter.heading.y);
-    float around = 2.0 * disk_dust_scale;  // features a radian: the source takes the azimuth twice
+    float around = 2.0 * disk_dust_scale / disk_dust_stretch;  // features a radian: the source takes the azimuth twice
     vec2 grain = matter.footprint * vec2(matter.radius * disk_dust_scale, around);
     float density = 1.0, octave = 1.0;
     do {

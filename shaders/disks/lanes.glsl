@@ -8,8 +8,8 @@ enabled = false
 
 [parameters.strength]
 default = 1.0
-range = [0.0, 1.0]
-help = "0 leaves the disk as it is, 1 is the published contrast."
+range = [0.0, 3.0]
+help = "Contrast; 1 as published."
 
 [parameters.number]
 default = 1.0
@@ -68,6 +68,6 @@ DiskMatter disk_layer_lanes(DiskMatter matter) {
     float depth = (matter.radius - disk_r_in) / max(disk_r_out - disk_r_in, 1e-4);
     vec2 patterns = vec2(lanes_of_pattern(matter, depth, shear_phase.x, shear_seed.x), lanes_of_pattern(matter, depth, shear_phase.y, shear_seed.y));
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
-    matter.density *= 1.0 + disk_lanes_strength * dot(weights, patterns - 1.0);
+    matter.density *= max(1.0 + disk_lanes_strength * dot(weights, patterns - 1.0), 0.0);
     return matter;
 }

@@ -72,6 +72,7 @@ UNIFORMS: dict[str, tuple[str, Any]] = {
     "disk_dust_strength": ("float", 1.0),
     "disk_dust_octaves": ("int", 5),
     "disk_dust_scale": ("float", 0.8),
+    "disk_dust_stretch": ("float", 1.0),
     "disk_dust_rate": ("float", 0.06),
     "disk_dust_falloff": ("float", 0.0),
     "disk_relativistic_lanes_strength": ("float", 1.0),

@@ -7,7 +7,7 @@ import pytest
 
 from blackhole_gl.plan import choice, plan
 from blackhole_gl.resources import assets_dir, presets_dir
-from blackhole_gl.scene import Scene, fields, presets
+from blackhole_gl.scene import Scene, catalogue, fields, presets
 
 SHIPPED = [info for info in presets.available() if info.path.is_relative_to(presets_dir())]
 
@@ -33,6 +33,8 @@ S1_LOOKS = {
     "particle_storm": (0.68, 13500, 1.10, 1.25, 0.28, 0.72, 0.58, 1.20, 1.05),
     "minimal_bloom": (0.52, 12000, 0.88, 0.85, 0.22, 0.55, 0.30, 0.85, 0.95),
 }
+
+S1_LAYERS = ("turbulence", "lanes", "micro_turbulence", "relativistic_lanes", "lensing_flare", "beaming_boost")
 
 # BlackHoleGPU's quality presets (steps, length, adaptive or not); the angular steps are ours.
 S1_STEPS = {
@@ -81,6 +83,15 @@ def test_physics_of_s1(name):
 def test_looks_of_s1(name):
     said = presets.read(name).values
     assert tuple(said[key] for key in S1_LOOK_KEYS) == S1_LOOKS[name]
+
+
+@pytest.mark.parametrize("name", [info.name for info in SHIPPED if info.group == "look"])
+def test_a_look_says_of_every_layer_whether_it_is_on(name):
+    """So that picking one leaves no layer of what was there before."""
+    said = presets.read(name).values
+    assert {f"disk.{layer}" for layer in catalogue.keys("disk_layer")} <= set(said)
+    if name in S1_LOOKS:
+        assert all(said[f"disk.{layer}"] for layer in S1_LAYERS)
 
 
 @pytest.mark.parametrize("name", S1_STEPS)
