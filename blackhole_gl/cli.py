@@ -1,4 +1,4 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, plan, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, plan, bench, check and presets."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-_COMMANDS = ("view", "render", "trace", "plan", "bench", "check", "presets")
+_COMMANDS = ("view", "render", "trace", "profile", "plan", "bench", "check", "presets")
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
 
@@ -177,6 +177,33 @@ def trace(
         _tell_warnings(scene)
         found = listed_rays.trace_by_shader(_renderer(backend), scene, listed.rays)
     listed_rays.write(out, found, 17 if float64 else 9, listed)
+
+
+@app.command()
+def profile(
+    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a bin of g = E_infinity/E_emitter. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    emissivity: Annotated[float, typer.Option(min=-5.0, max=10.0, help="q of the line's power, r^-q.")] = 3.0,
+    bins: Annotated[int, typer.Option(min=10, max=2000, help="Bins between the least g and the largest.")] = 200,
+    backend: Backend = "auto",
+) -> None:
+    """Write the profile of a narrow line from the whole disk, of each order of image, and say what share of the light each has."""
+    from .measure import line_profile
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = _scene(preset, set_, any_file)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
+    line_profile.refuse(scene)
+    _refuse_unmet(scene, set_)
+    _tell_warnings(scene)
+    found = line_profile.measure(_renderer(backend), scene, index=emissivity, bins=bins)
+    write_whole(out, found.as_csv().encode())
+    for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
+        print(f"{name:12} {100.0 * share:.3g} % of the light", file=sys.stderr)
+    print(f"mean g       {found.mean:.4f}", file=sys.stderr)
 
 
 @app.command()
