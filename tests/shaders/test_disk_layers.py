@@ -96,9 +96,17 @@ def test_any_footprint_gives_a_finite_density(density, layer: str, footprint: tu
     assert np.isfinite(found).all() and (found >= 0.0).all()
 
 
-def test_what_cannot_be_resolved_fades_out(density) -> None:
+@pytest.mark.parametrize("layer", ["turbulence", "lanes", "micro_turbulence", "dust"])
+def test_what_cannot_be_resolved_fades_out(density, layer: str) -> None:
     """A pixel wider than every eddy sees the smooth disk; float32 exp leaves 1e-6."""
-    np.testing.assert_allclose(density("turbulence", footprint=(10.0, 10.0)), 1.0, atol=1e-5)
+    np.testing.assert_allclose(density(layer, footprint=(20.0, 20.0)), 1.0, atol=1e-5)
+
+
+@pytest.mark.parametrize("layer", ["turbulence", "lanes", "micro_turbulence", "dust"])
+def test_a_layer_has_the_same_mean_however_wide_the_pixels_are(density, layer: str) -> None:
+    """From pixels that resolve all to ones that resolve nothing, over four lives of the patterns. 4 %: few large eddies."""
+    means = [np.mean([density(layer, 30.0 + RENEWAL_PERIOD * k, footprint=(f, f)).mean() for k in range(4)]) for f in (1e-4, 3e-3, 1e-2, 3e-2, 0.1, 0.3)]
+    np.testing.assert_allclose(means, 1.0, atol=0.04)
 
 
 def test_speed_zero_stands_still(density) -> None:
@@ -121,6 +129,21 @@ def test_the_pattern_turns_with_the_matter(density) -> None:
 
 
 FINER = 4
+
+
+@pytest.mark.parametrize("layer", ["lanes", "micro_turbulence", "dust"])
+def test_a_pattern_finer_than_a_pixel_is_nearer_its_mean_for_the_fading(density, layer: str) -> None:
+    """Against the mean of 16 places in each pixel of 0.03 rad, root mean square: less than 0.6 of the difference without fading (0.37 to 0.47)."""
+    wide = 0.03
+
+    def drawn(right: float, up: float, own: float) -> np.ndarray:
+        low, turned = 3.2 * (1.0 + wide * up), wide * right
+        return density(layer, 40.0, (turned, turned + WIDTH * wide), (low, low + HEIGHT * 0.3 * 3.2 * wide), (0.23 * own, own))
+
+    shifts = [(k + 0.5) / FINER - 0.5 for k in range(FINER)]
+    mean = np.mean([drawn(x, y, wide / FINER) for x in shifts for y in shifts], axis=0)
+    faded, raw = (float(np.sqrt(np.mean((drawn(0.0, 0.0, own) - mean) ** 2))) for own in (wide, 0.0))
+    assert faded < 0.6 * raw, (faded, raw)
 
 
 @pytest.mark.parametrize("footprint, bound", [((4e-3, 4e-3), 0.42), ((1.2e-2, 2e-3), 0.95)], ids=str)
