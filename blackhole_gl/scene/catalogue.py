@@ -87,7 +87,8 @@ def layer_fields() -> dict[str, Field]:
     found = {}
     for layer in plug_ins("disk_layer").values():
         key = f"{SLOTS['disk_layer'].section}.{layer.key}"
-        found[key] = Field(key, "switch", layer.traits.enabled, help=f"Layer: {layer.summary}", art=True)
+        physical = False if layer.traits.acts_on_light else None
+        found[key] = Field(key, "switch", layer.traits.enabled, help=f"Layer: {layer.summary}", physical=physical, art=True)
     return found
 
 

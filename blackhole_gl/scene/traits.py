@@ -103,10 +103,12 @@ class DiskLayerTraits:
     Attributes:
         enabled: whether it is on in a scene that does not say.
         moves: whether it looks otherwise at another time.
+        acts_on_light: whether it makes the same matter brighter or darker than physics does; its switch is marked so.
     """
 
     enabled: bool = False
     moves: bool = True
+    acts_on_light: bool = False
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ slot = "disk_layer"
 rank = 70
 enabled = false
 moves = false
+acts_on_light = true
 
 [parameters.strength]
 default = 1.8

@@ -128,6 +128,7 @@ def test_a_layers_switch_stands_among_the_disks_values_and_is_what_its_header_sa
     assert keys[first : first + len(layers)] == layers
     assert keys[first - 1].startswith("disk.") and keys[first + len(layers)].startswith("sky.")
     assert {key for key in layers if fields()[key].default} == {"disk.turbulence"}
+    assert {key for key in layers if fields()[key].physical is False} == {"disk.relativistic_lanes", "disk.lensing_flare", "disk.beaming_boost"}
 
 
 # --- what headers may say ---
