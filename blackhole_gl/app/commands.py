@@ -195,6 +195,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "overlay": flip("show_overlay"),
     "values": flip("show_values"),
     "chart": flip("show_chart"),
+    "line": flip("show_line"),
     "paths": flip("show_paths"),
     "sides": flip("show_sides"),
 }

@@ -85,6 +85,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("panel_keys", ("F6",), "Panel by keys: arrows and TAB go, SPACE and ENTER take, ESC leaves"),
     Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),
+    Action("line", ("B",), "Show or hide the profile of a line that the disk emits, of each order of image"),
     Action("paths", ("G",), "Show or hide the path view: a click on the picture shows that ray in space, step by step"),
     Action("sides", ("D",), "Divide the picture or not: another method or preset on the right, with the error and cost of both"),
     Action("save", ("CTRL+S",), "Save the scene"),

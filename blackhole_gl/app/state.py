@@ -72,6 +72,7 @@ class WindowState:
     show_help: bool = False
     show_overlay: bool = True
     show_chart: bool = False
+    show_line: bool = False
     show_values: bool = False
     show_paths: bool = False
     show_sides: bool = False

@@ -12,6 +12,7 @@ import csv
 import io
 import itertools
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,13 +93,25 @@ def measure(renderer: Renderer, scene: Scene, *, index: float = 3.0, bins: int =
     Raises:
         SceneError: there is no disk, or its light is no light in the space-time of a hole.
     """
+    return list(in_parts(renderer, scene, index=index, bins=bins, parts=1))[-1]
+
+
+def in_parts(renderer: Renderer, scene: Scene, *, index: float, bins: int, parts: int, fineness: float = 1.0) -> Iterator[LineProfile]:
+    """As `measure`: the profile of the rays so far, after each of `parts` of them, which go round the critical curve in turn; the last is of all.
+
+    Args:
+        fineness: 1 for as many rays as `measure` has, along each of their two ways.
+    """
     refuse(scene)
-    screen = screen_of(scene)
-    found, made = listed_rays.trace_by_shader(renderer, scene, screen.rays.reshape(-1, 2)), planning.plan(scene)
-    r, g = (np.nan_to_num(values).reshape(*screen.area.shape, -1) for values in (found.crossing_r, found.crossing_g))
-    shines = (r >= made.disk_inner) & (r <= made.disk_outer) & (g > 0.0) & (np.arange(len(ORDERS)) < scene.rays.orders)
-    light = np.where(shines, seen_through(scene, shines) * power(r, g, index), 0.0)
-    return binned(g, light * screen.area[..., None], bins)
+    screen, made = screen_of(scene, fineness), planning.plan(scene)
+    r, g = np.zeros((2, *screen.area.shape, len(ORDERS)))
+    for part in range(parts):
+        found = listed_rays.trace_by_shader(renderer, scene, screen.rays[part::parts].reshape(-1, 2))
+        shape = screen.area[part::parts].shape
+        r[part::parts], g[part::parts] = (np.nan_to_num(values).reshape(*shape, -1) for values in (found.crossing_r, found.crossing_g))
+        shines = (r >= made.disk_inner) & (r <= made.disk_outer) & (g > 0.0) & (np.arange(len(ORDERS)) < scene.rays.orders)
+        light = np.where(shines, seen_through(scene, shines) * power(r, g, index), 0.0)
+        yield binned(g, light * screen.area[..., None], bins)
 
 
 def refuse(scene: Scene) -> None:
@@ -111,15 +124,16 @@ def refuse(scene: Scene) -> None:
         raise SceneError("things", "a line profile is of the disk alone: take things and media out of the scene")
 
 
-def screen_of(scene: Scene) -> Screen:
+def screen_of(scene: Scene, fineness: float = 1.0) -> Screen:
     """Rays over all of the image of `scene`'s disk, midpoints of equal parts of the angle and of the logarithm of the distance from the critical curve."""
-    chi = 2.0 * math.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+    around, steps = round(_ANGLES * fineness), round(_STEPS_A_DECADE * fineness)
+    chi = 2.0 * math.pi * (np.arange(around) + 0.5) / around
     edge = critical_radius(scene, chi)[:, None]
     distance, outer = scene.camera.distance, scene.disk.outer_radius
     at_infinity = math.isinf(distance)
     furthest = 2.0 * outer * _MARGIN + 6.0 if at_infinity else math.pi if distance < _MARGIN * outer else math.asin(min(1.0, _MARGIN * outer / distance)) + 0.1
-    inside = _parts(0.0, np.ones_like(edge))
-    outside = _parts(0.0, np.maximum(furthest / edge - 1.0, 1.0))
+    inside = _parts(np.ones_like(edge), steps)
+    outside = _parts(np.maximum(furthest / edge - 1.0, 1.0), steps)
     low = np.concatenate([edge * (1.0 - inside[:, :-1]), edge * (1.0 + outside[:, :-1])], axis=1)
     high = np.concatenate([edge * (1.0 - inside[:, 1:]), edge * (1.0 + outside[:, 1:])], axis=1)
     if not at_infinity:
@@ -128,13 +142,13 @@ def screen_of(scene: Scene) -> Screen:
     area = np.abs(high**2 - low**2) / 2.0 if at_infinity else np.abs(np.cos(high) - np.cos(low))
     angles = np.broadcast_to(chi[:, None], away.shape)
     rays = np.stack([away * np.cos(angles), away * np.sin(angles)] if at_infinity else [away, angles], axis=-1)
-    return Screen(rays, area * (2.0 * math.pi / _ANGLES))
+    return Screen(rays, area * (2.0 * math.pi / around))
 
 
-def _parts(first: float, last: np.ndarray) -> np.ndarray:
-    """Edges (angles, parts + 1) between `first` and `last` (angles, 1), in the logarithm but for the nearest."""
-    steps = math.ceil(_STEPS_A_DECADE * math.log10(float(np.max(last)) / _NEAREST))
-    return np.concatenate([np.full_like(last, first), last ** np.linspace(0.0, 1.0, steps) * _NEAREST ** np.linspace(1.0, 0.0, steps)], axis=1)
+def _parts(last: np.ndarray, a_decade: int) -> np.ndarray:
+    """Edges (angles, parts + 1) between 0 and `last` (angles, 1), equally far apart in the logarithm but for the first."""
+    steps = math.ceil(a_decade * math.log10(float(np.max(last)) / _NEAREST))
+    return np.concatenate([np.zeros_like(last), last ** np.linspace(0.0, 1.0, steps) * _NEAREST ** np.linspace(1.0, 0.0, steps)], axis=1)
 
 
 def seen_through(scene: Scene, shines: np.ndarray) -> np.ndarray:

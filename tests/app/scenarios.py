@@ -601,6 +601,26 @@ def live_chart(hands: Hands) -> None:
     assert not hands.state.show_chart and not chart.busy(hands.state)
 
 
+def line_plot(hands: Hands) -> None:
+    """B opens the plot, which fills while time runs and leaves the picture's own hit map alone; another view or power is plotted anew."""
+    hands.state.change({"playback.target_fps": 0.0, "disk.compositing": "additive"})
+    hands.settle()
+    wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
+    hands.press(Key.b)
+    plot, traces = hands.window.line_plot, hands.window.picture.renderer.hit_map.traces
+    wait(hands, lambda: plot.profile is not None and not plot.busy(hands.state), seconds=60.0)
+    assert hands.window.picture.renderer.hit_map.traces == traces
+    first = plot.profile
+    assert abs(first.flux.sum() - 1.0) < 1e-12 and first.shares[0] > first.shares[1] > first.shares[2] > 0.0
+    hands.context.item_input_value("//Line profile/power of the line falls as r to the −q##index", 0.0)
+    wait(hands, lambda: plot.profile is not first and not plot.busy(hands.state), seconds=60.0)
+    assert plot.profile.shares[1] < first.shares[1], "the outer disk's rings are fainter than the inner one's"
+    hands.press(Key.space)
+    wait(hands, lambda: plot.profile is None, seconds=20.0)
+    hands.press(Key.b)
+    assert not hands.state.show_line and not plot.busy(hands.state) and not hands.state.render_error
+
+
 def path_view(hands: Hands) -> None:
     """G opens the view. A click on the picture shows the ray of its pixel, a drag only orbits; the same ray by another method comes beside it."""
     paths = hands.window.path_view.paths
@@ -835,6 +855,6 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_colour_is_edited_in_one_row, a_mistake_in_a_users_header_is_shown)
 WITH_THE_REAL_RENDERER = (
-    real_picture, way_out_of_a_black_picture, shader_edited, live_chart, path_view, side_by_side, sides_hide_nothing, preset_switches_never_freeze,
+    real_picture, way_out_of_a_black_picture, shader_edited, live_chart, line_plot, path_view, side_by_side, sides_hide_nothing, preset_switches_never_freeze,
     all_preset_switches_never_freeze,
 )  # fmt: skip
