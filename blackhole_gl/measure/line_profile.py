@@ -93,11 +93,12 @@ def measure(renderer: Renderer, scene: Scene, *, index: float = 3.0, bins: int =
     Raises:
         SceneError: there is no disk, or its light is no light in the space-time of a hole.
     """
-    return list(in_parts(renderer, scene, index=index, bins=bins, parts=1))[-1]
+    (found,) = (found for found in in_parts(renderer, scene, index=index, bins=bins, parts=1) if found is not None)
+    return found
 
 
-def in_parts(renderer: Renderer, scene: Scene, *, index: float, bins: int, parts: int, fineness: float = 1.0) -> Iterator[LineProfile]:
-    """As `measure`: the profile of the rays so far, after each of `parts` of them, which go round the critical curve in turn; the last is of all.
+def in_parts(renderer: Renderer, scene: Scene, *, index: float, bins: int, parts: int, fineness: float = 1.0) -> Iterator[LineProfile | None]:
+    """As `measure`, but for a pause after each of `parts` of the rays, in which it yields None; the profile comes last.
 
     Args:
         fineness: 1 for as many rays as `measure` has, along each of their two ways.
@@ -109,9 +110,10 @@ def in_parts(renderer: Renderer, scene: Scene, *, index: float, bins: int, parts
         found = listed_rays.trace_by_shader(renderer, scene, screen.rays[part::parts].reshape(-1, 2))
         shape = screen.area[part::parts].shape
         r[part::parts], g[part::parts] = (np.nan_to_num(values).reshape(*shape, -1) for values in (found.crossing_r, found.crossing_g))
-        shines = (r >= made.disk_inner) & (r <= made.disk_outer) & (g > 0.0) & (np.arange(len(ORDERS)) < scene.rays.orders)
-        light = np.where(shines, seen_through(scene, shines) * power(r, g, index), 0.0)
-        yield binned(g, light * screen.area[..., None], bins)
+        yield None
+    shines = (r >= made.disk_inner) & (r <= made.disk_outer) & (g > 0.0) & (np.arange(len(ORDERS)) < scene.rays.orders)
+    light = np.where(shines, seen_through(scene, shines) * power(r, g, index), 0.0)
+    yield binned(g, light * screen.area[..., None], bins)
 
 
 def refuse(scene: Scene) -> None:
