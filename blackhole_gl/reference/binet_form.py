@@ -26,6 +26,7 @@ import math
 import numpy as np
 
 from ..shapes import Bool, Float
+from .events import LightRays
 from .hits import Traced
 from .marching import follow
 from .observers import Place
@@ -90,6 +91,10 @@ class BinetSystem:
         along_theta = state[N_Z] * (state[N_X] * state[E_X] + state[N_Y] * state[E_Y]) / ring - ring * state[E_Z]
         return state[W_DOT] / (1.0 - state[W]), -2.0 * state[H] * along_theta
 
+    def affine_rate(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
+        """r^2, of the parameter t."""
+        return 1.0 / state[W] ** 2
+
     def start(self, place: Place, directions: Float[Array, "N 3"]) -> Float[Array, "rows N"]:
         """State (10, N) for local directions (N, 3) of the static observer at `place` (r in r_s)."""
         e_r, e_theta, e_phi = place.frame()
@@ -118,19 +123,32 @@ class BinetSystem:
 _STRENGTHS = {"gravity_strength": "hole.gravity_strength", "horizon_size": "hole.horizon_size"}
 
 
-@twin("schwarzschild", "schwarzschild_table", metric="schwarzschild", spins=False, parameters=_STRENGTHS)
+def binet_light(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0) -> LightRays:
+    """The rays of `view` at the camera, as `binet_form` has them."""
+    return _light(view, BinetSystem(gravity_strength, horizon_size * view.horizon))
+
+
+def twisted_binet_light(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0, twist: bool = True) -> LightRays:
+    """The same of `twisted_binet_form`."""
+    return _light(view, BinetSystem(gravity_strength, horizon_size * view.horizon, drag * view.spin if twist else 0.0))
+
+
+@twin("schwarzschild", "schwarzschild_table", metric="schwarzschild", spins=False, parameters=_STRENGTHS, light=binet_light)
 def binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0) -> Traced:
     """gravity_strength: G, 1 is physics; horizon_size: radius of capture in horizon radii."""
-    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon))
+    return follow(view, *binet_light(view, gravity_strength, horizon_size))
 
 
-@twin("kerr_like", metric="schwarzschild", parameters={**_STRENGTHS, "drag": "rays.kerr_like.drag", "twist": "rays.kerr_like.twist"})
+_TWISTED = {**_STRENGTHS, "drag": "rays.kerr_like.drag", "twist": "rays.kerr_like.twist"}
+
+
+@twin("kerr_like", metric="schwarzschild", parameters=_TWISTED, light=twisted_binet_light)
 def twisted_binet_form(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0, drag: float = 1.0, twist: bool = True) -> Traced:
     """As `binet_form`, turned about the axis; drag: k; twist: whether it is turned at all."""
-    return _traced(view, BinetSystem(gravity_strength, horizon_size * view.horizon, drag * view.spin if twist else 0.0))
+    return follow(view, *twisted_binet_light(view, gravity_strength, horizon_size, drag, twist))
 
 
-def _traced(view: View, system: BinetSystem) -> Traced:
+def _light(view: View, system: BinetSystem) -> LightRays:
     place = view.place
     if view.at_infinity:
         state = system.start_at_infinity(place, view.screen)
@@ -138,4 +156,4 @@ def _traced(view: View, system: BinetSystem) -> Traced:
     else:
         state = system.start(place, view.rays)
         l_z = -2.0 * place.r * place.sin_theta * view.rays[:, 2] / math.sqrt((place.r - 1.0) / place.r)
-    return follow(view, system, state, np.ones(len(view.rays)), l_z)
+    return LightRays(system, state, np.ones(len(view.rays)), l_z)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -38,6 +38,22 @@ class RaySystem(System, Protocol):
 
     def captured(self, state: Float[Array, "rows N"]) -> Bool[Array, " N"]:
         """Mask (N,): inside `capture_radius` with no way back."""
+
+
+class LightSystem(RaySystem, Protocol):
+    """A ray model whose rays are light of a metric."""
+
+    def affine_rate(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
+        """Affine length in r_s, of a photon with E = 1 far away, by the model's own parameter, (N,)."""
+
+
+class LightRays(NamedTuple):
+    """Rays at the camera, ready to be marched: `state` (rows, N); `energy` and `l_z`, (N,), as in `hits.Traced`."""
+
+    system: LightSystem
+    state: Float[Array, "rows N"]
+    energy: Float[Array, " N"]
+    l_z: Float[Array, " N"]
 
 
 class Event(Protocol):

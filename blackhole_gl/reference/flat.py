@@ -14,15 +14,27 @@ from dataclasses import replace
 import numpy as np
 
 from ..shapes import Float
+from .events import LightRays
 from .hits import CAPTURED, ESCAPED, Crossings, Traced
 from .marching import surfaces_of
 from .observers import Place
 from .registry import View, twin
+from .straight_form import StraightSystem
 
 Array = np.ndarray
 
+_FAR = 1e4  # r_s: from where parallel rays come, for what lies in space and not in planes
 
-@twin("flat", metric="flat", parameters={"horizon_size": "hole.horizon_size"})
+
+def flat_light(view: View, horizon_size: float = 1.0) -> LightRays:
+    """The rays of `view` at the camera; where that is at infinity, from far beyond all that is asked for."""
+    position, direction = lines(view)
+    if view.at_infinity:
+        position = position - _FAR * direction
+    return LightRays(StraightSystem(horizon_size * view.horizon), np.concatenate([position.T, direction.T]), np.ones(len(position)), l_z_of_straight_rays(view))
+
+
+@twin("flat", metric="flat", parameters={"horizon_size": "hole.horizon_size"}, light=flat_light)
 def flat(view: View, horizon_size: float = 1.0) -> Traced:
     """Straight rays past a black ball of `horizon_size` horizon radii."""
     return straight(view, horizon_size * view.horizon)

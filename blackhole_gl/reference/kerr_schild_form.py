@@ -37,6 +37,7 @@ import math
 import numpy as np
 
 from ..shapes import Bool, Float
+from .events import LightRays
 from .hits import Traced
 from .marching import follow
 from .observers import Momenta, Place, momenta
@@ -193,6 +194,10 @@ class KerrSchildSystem:
         p_r -= chart * (2.0 * r * energy - self.spin * state[L_Z]) / delta
         return -p_r / np.abs(energy), -p_theta / np.abs(energy)
 
+    def affine_rate(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
+        """E R^2, of lengths in M."""
+        return 0.5 * np.abs(state[ENERGY]) / state[W] ** 2
+
     def azimuth_lag(self, r: Array | float) -> Array | float:
         """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays."""
         gap = 2.0 * (self.r_plus - 1.0)
@@ -250,13 +255,18 @@ class KerrSchildSystem:
         return np.sqrt(0.5 * (q + np.sqrt(q * q + 4.0 * a2 * state[N_Z] ** 2)))
 
 
-@twin("kerr", metric="kerr")
-@twin("schwarzschild_binet", metric="schwarzschild", spins=False)
-def kerr_schild_form(view: View) -> Traced:
-    """Light of Kerr by this form. Binet's equation has it for a twin too: other coordinates and no orbital plane."""
+def kerr_schild_light(view: View) -> LightRays:
+    """The rays of `view` at the camera."""
     system, place = KerrSchildSystem(-view.spin), view.place_in_m
     if view.at_infinity:
         state = system.start_at_infinity(place, view.rays)
     else:
         state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
-    return follow(view, system, state, state[ENERGY].copy(), -state[L_Z])
+    return LightRays(system, state, state[ENERGY].copy(), -state[L_Z])
+
+
+@twin("kerr", metric="kerr", light=kerr_schild_light)
+@twin("schwarzschild_binet", metric="schwarzschild", spins=False, light=kerr_schild_light)
+def kerr_schild_form(view: View) -> Traced:
+    """Light of Kerr by this form. Binet's equation has it for a twin too: other coordinates and no orbital plane."""
+    return follow(view, *kerr_schild_light(view))

@@ -22,6 +22,7 @@ import numpy as np
 
 from ..physics import relativity
 from ..shapes import Bool, Float
+from .events import LightRays
 from .hits import Traced
 from .marching import follow
 from .observers import Momenta, Place, momenta
@@ -97,6 +98,10 @@ class MinoSystem:
         theta_dot = n_z * (n_x * state[NX_DOT] + n_y * state[NY_DOT]) / ring - ring * state[NZ_DOT]
         return state[W_DOT] / (delta * np.abs(state[ENERGY])), -theta_dot / np.abs(state[ENERGY])
 
+    def affine_rate(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
+        """E Sigma, of lengths in M."""
+        return 0.5 * np.abs(state[ENERGY]) * (1.0 / state[W] ** 2 + (self.spin * state[N_Z]) ** 2)
+
     def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
         """State (12, N) of photons at a finite place."""
         r = place.r
@@ -120,12 +125,17 @@ class MinoSystem:
         return state
 
 
-@twin("kerr_schild", metric="kerr")
-def mino_form(view: View) -> Traced:
-    """Light of Kerr by this form."""
+def mino_light(view: View) -> LightRays:
+    """The rays of `view` at the camera."""
     system, place = MinoSystem(-view.spin), view.place_in_m
     if view.at_infinity:
         state = system.start_at_infinity(place, view.rays)
     else:
         state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
-    return follow(view, system, state, state[ENERGY].copy(), -state[L])
+    return LightRays(system, state, state[ENERGY].copy(), -state[L])
+
+
+@twin("kerr_schild", metric="kerr", light=mino_light)
+def mino_form(view: View) -> Traced:
+    """Light of Kerr by this form."""
+    return follow(view, *mino_light(view))

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..shapes import Float
+from .events import LightRays
 from .hits import Traced
 from .observers import Place
 
@@ -81,6 +82,8 @@ class Twin:
         spins: whether the hole's spin means anything to it.
         has_hole: whether there is one; in a field there is not.
         parameters: what `trace` calls its parameters → the scene keys that hold their values.
+        light: gives the rays of a `View` at the camera, for what goes along them (`transfer`), with the same parameters; None for a model whose rays are
+            no light, or not those asked for.
     """
 
     trace: Callable[..., Traced]
@@ -88,6 +91,7 @@ class Twin:
     spins: bool = True
     has_hole: bool = True
     parameters: Mapping[str, str] = field(default_factory=dict)
+    light: Callable[..., LightRays] | None = None
 
 
 _Trace = Callable[..., Traced]
@@ -95,7 +99,8 @@ _TWINS: dict[str, Twin] = {}
 
 
 def twin(
-    *models: str, metric: str | None, spins: bool = True, has_hole: bool = True, parameters: Mapping[str, str] | None = None
+    *models: str, metric: str | None, spins: bool = True, has_hole: bool = True, parameters: Mapping[str, str] | None = None,
+    light: Callable[..., LightRays] | None = None,
 ) -> Callable[[_Trace], _Trace]:
     """Makes the decorated function the twin of `models`; see `Twin` for what it declares.
 
@@ -109,7 +114,7 @@ def twin(
         for model in models:
             if model in _TWINS:
                 raise ValueError(f"ray model {model!r} has two twins: {_TWINS[model].trace.__module__} and {trace.__module__}")
-            _TWINS[model] = Twin(trace, metric, spins, has_hole, dict(parameters or {}))
+            _TWINS[model] = Twin(trace, metric, spins, has_hole, dict(parameters or {}), light)
         return trace
 
     return register

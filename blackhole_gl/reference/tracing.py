@@ -52,7 +52,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     twin = twin_of(model)
     if unknown := sorted(set(parameters) - set(twin.parameters)):
         raise ValueError(f"the twin of {model} takes no {unknown[0]}; it takes {', '.join(twin.parameters) or 'no parameters'}")
-    view = _view(twin, spin, Place.from_degrees(distance, inclination_deg, azimuth_deg), observer, directions, screen, planes, orders, tolerance)
+    view = view_of(twin, spin, Place.from_degrees(distance, inclination_deg, azimuth_deg), observer, directions, screen, planes, orders, tolerance)
     view = replace(view, balls=np.array(balls, dtype=np.float64).reshape(-1, 4))
     batches = [view.rays[i:i + _BATCH] for i in range(0, len(view.rays), _BATCH)] or [view.rays]
     traced = joined([twin.trace(replace(view, rays=rays), **parameters) for rays in batches])
@@ -65,8 +65,13 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         energy_sign=np.sign(traced.energy), observer=view.observer)
 
 
-def _view(twin: Twin, spin: float, place: Place, observer: str, directions: ArrayLike | None, screen: ArrayLike | None,
-          planes: Sequence[Sequence[float]], orders: int, tolerance: float) -> View:
+def view_of(twin: Twin, spin: float, place: Place, observer: str, directions: ArrayLike | None, screen: ArrayLike | None,
+            planes: Sequence[Sequence[float]], orders: int, tolerance: float) -> View:
+    """What `twin` is to trace, from what `trace` takes.
+
+    Raises:
+        ValueError: as `trace`, but for a model's parameters.
+    """
     spin = spin if twin.spins else 0.0
     horizon = 0.0 if not twin.has_hole else 1.0 if twin.metric == "schwarzschild" else float(relativity.horizon_radius(spin))
     if place.r <= horizon:
