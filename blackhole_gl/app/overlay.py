@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 from imgui_bundle import ImVec4, hello_imgui, imgui
 
+from ..physics import angular_size
 from . import compass, theme
 from .picture import Picture
 from .state import Notice, WindowState
@@ -39,6 +40,8 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
     imgui.text_colored(theme.QUIET, f"{speed}, paused" if state.paused else speed)
     imgui.text_colored(theme.QUIET, f"trace {trace}   shade {report.shade_ms:.1f} ms   post {report.post_ms:.1f} ms")
     imgui.text_colored(theme.QUIET, report.method)
+    if on_the_sky := angular_size.told(state.scene):
+        imgui.text_colored(theme.QUIET, on_the_sky)
     if picture.rays is not None:
         imgui.text_colored(theme.QUIET, f"{picture.rays.steps:.1f} steps a ray")
         colour = theme.ERROR if picture.rays.unresolved else theme.QUIET

@@ -18,7 +18,7 @@ from .frozen import FrozenMap
 from .instances import Instances, Place
 from .order import refuse_disorder
 from .schema import Field, SceneError, Value, nearest_key
-from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky
+from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky, Source
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class Scene:
     parameters: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}), hash=False)
     things: Instances = FrozenMap()
     media: Instances = FrozenMap()
+    source: Source = Source()
 
     def get(self, key: str) -> Value:
         """The value of `key`.

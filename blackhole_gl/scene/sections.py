@@ -57,6 +57,15 @@ class Hole:
 
 
 @dataclass(frozen=True)
+class Source:
+    """The real object that the scene stands for: what angles on the sky are worked out from. Light's ways do not depend on it."""
+
+    real: bool = switch(False, "The scene stands for a real object: angles on the sky are told, over the picture and by a scale bar where labels are on.")
+    mass_suns: float = number(6.5e9, 0.1, 1e12, "M☉", "Mass of the hole. M87*: 6.5e9; Sagittarius A*: 4.15e6.")
+    distance_pc: float = number(16.8e6, 1e-3, 1e11, "pc", "Distance from the Earth, in parsecs. M87*: 1.68e7; Sagittarius A*: 8178.")
+
+
+@dataclass(frozen=True)
 class Camera:
     """The observer and its picture."""
 
@@ -234,7 +243,7 @@ class Playback:
 
 
 SECTIONS: Mapping[str, type] = MappingProxyType(
-    {"hole": Hole, "camera": Camera, "rays": Rays, "disk": Disk, "sky": Sky, "post": Post, "playback": Playback}
+    {"hole": Hole, "source": Source, "camera": Camera, "rays": Rays, "disk": Disk, "sky": Sky, "post": Post, "playback": Playback}
 )
 """The sections by name, in the order of panels and files."""
 
