@@ -22,9 +22,10 @@ bool matters(uint crossing) {
     return has_all(crossing, NODE_BELOW_OUTER_MARGIN | NODE_ABOVE_INNER_MARGIN) || has_all(crossing, NODE_MISSES | NODE_BEFORE_DISK);
 }
 
-// What to make of a crossing of these kinds; `trusted` falls where the cell cannot be interpolated.
-uint crossing_kind(uint crossing, inout bool trusted, inout bool disk) {
-    trusted = trusted && (!matters(crossing) || (crossing & (NODE_MISSES | NODE_BENDS)) == 0u);
+// What to make of a crossing of these kinds and senses; `trusted` falls where the cell cannot be interpolated.
+uint crossing_kind(uint crossing, uint senses, inout bool trusted, inout bool disk) {
+    bool turns = has_all(senses, NODE_OUTBOUND | NODE_INBOUND);
+    trusted = trusted && (!matters(crossing) || ((crossing & (NODE_MISSES | NODE_BENDS)) == 0u && !turns));
     disk = disk || has_all(crossing, NODE_BELOW_OUTER_EDGE | NODE_ABOVE_INNER_EDGE);
     return matters(crossing) ? CROSSING_SEEN : (crossing & NODE_CROSSES) != 0u ? CROSSING_UNSEEN : CROSSING_NONE;
 }
@@ -38,15 +39,17 @@ void main() {
     uint cell = fate;
     bool disk = false; // the nodes around a cell leave room for the width of its pixels
 #if ORDERS > 0
-    cell |= crossing_kind(any >> NODE_CROSSING_BITS(0), trusted, disk) << 2;
+    cell |= crossing_kind(any >> NODE_CROSSING_BITS(0), any >> NODE_SENSE_BITS(0), trusted, disk) << 2;
+    cell |= (any >> NODE_SENSE_BITS(0) & NODE_INBOUND) << 9;
 #endif
 #if ORDERS > 1
-    cell |= crossing_kind(any >> NODE_CROSSING_BITS(1), trusted, disk) << 4;
+    cell |= crossing_kind(any >> NODE_CROSSING_BITS(1), any >> NODE_SENSE_BITS(1), trusted, disk) << 4;
+    cell |= (any >> NODE_SENSE_BITS(1) & NODE_INBOUND) << 10;
 #endif
 #if ORDERS > 2
     uint third = any >> NODE_CROSSING_BITS(2);
     trusted = trusted && !matters(third);
-    cell |= crossing_kind(third, trusted, disk) << 6;
+    cell |= crossing_kind(third, 0u, trusted, disk) << 6;
 #endif
     // The hole's own cells are always traced: from far away it can be smaller than a cell.
     vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);

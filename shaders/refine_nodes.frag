@@ -81,6 +81,13 @@ uint kinds_of_fates(vec4 star[5]) {
     return uint(fate);
 }
 
+uint senses_of_crossings(int n, vec2 point[5], vec4 star[5]) {
+    uint senses = 0u;
+    for (int i = 0; i < 5; ++i)
+        senses |= point[i] == vec2(0.0) ? 0u : (int(star[i].w + 0.5) >> n & 1) == 1 ? NODE_INBOUND : NODE_OUTBOUND;
+    return senses;
+}
+
 // The points' bounding box counts, and not the points: seen from near its plane the disk is thinner than a cell, and no ray may meet it.
 uint kinds_of_crossings(vec2 point[5]) {
     vec2 margin = vec2(disk_r_in / beyond_disk, disk_r_out * beyond_disk);
@@ -121,6 +128,7 @@ void main() {
         v[i] = first[i].xy;
     bend1_out = bend_of(v);
     kinds_out |= (kinds_of_crossings(v) | kind_of_crossing(v[0], bend1_out)) << NODE_CROSSING_BITS(0);
+    kinds_out |= senses_of_crossings(0, v, first) << NODE_SENSE_BITS(0);
     coarse0_out.z = first[0].z;
     coarse1_out = vec4(v[0], vec2(0.0));
 #endif
@@ -130,6 +138,7 @@ void main() {
         v[i] = others[i].xy;
     bend2_out = bend_of(v);
     kinds_out |= (kinds_of_crossings(v) | kind_of_crossing(v[0], bend2_out)) << NODE_CROSSING_BITS(1);
+    kinds_out |= senses_of_crossings(1, v, first) << NODE_SENSE_BITS(1);
     coarse1_out.zw = v[0];
 #endif
 #if ORDERS > 2

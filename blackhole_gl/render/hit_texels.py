@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from ..shapes import Float, Int
+from ..shapes import Bool, Float, Int
 
 Array = np.ndarray
 
@@ -38,6 +38,7 @@ class HitArrays:
         direction: float32 (…, 3): asymptotic unit vectors in the world; zero unless escaped.
         lambda_: float32 (…): L_z/E in M; zero when no crossings are kept.
         crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
+        inbound: bool (…, 3): whether the light at each crossing still comes in towards the hole, so that k_r < 0; means nothing in the view `conservation`.
         momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
             |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
         met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.
@@ -50,6 +51,7 @@ class HitArrays:
     direction: Float[Array, "*rays 3"]
     lambda_: Float[Array, "*rays"]
     crossing: Float[Array, "*rays 3 2"]
+    inbound: Bool[Array, "*rays 3"]
     momentum: Float[Array, "*rays 3 2"] | None = None
     met: Int[Array, "*rays meetings 3"] | None = None
     met_place: Float[Array, "*rays meetings 3"] | None = None
@@ -85,7 +87,8 @@ def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: i
     kept += [np.zeros_like(first)] * (2 - len(kept))
     fate, steps = fates_and_steps(first)
     crossing = np.stack([kept[0][..., :2], kept[1][..., :2], kept[1][..., 2:]], axis=-2)
-    found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing)
+    inbound = (kept[0][..., 3, None].astype(np.int32) >> np.arange(MOST_CROSSINGS) & 1) == 1
+    found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing, inbound)
     if not meetings:
         return found
     places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)

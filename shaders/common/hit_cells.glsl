@@ -11,6 +11,7 @@
 //   bits 2–3, 4–5, 6–7  what to make of crossing 0, 1, 2 (which is never interpolated: it is seen in the thinnest of rings)
 //   bit 8               some crossing may lie on the disk
 //   bit 9               of cells whose pixels have rays of their own: they show no thing or medium, and none was written
+//   bits 10, 11         whether the light comes in towards the hole at crossing 0, at crossing 1, if that is to be interpolated
 //
 // The grid begins GRID_MARGIN nodes outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − GRID_MARGIN, j − GRID_MARGIN), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
@@ -23,6 +24,10 @@ const uint CELL_WITHOUT_THINGS = 512u;
 
 uint cell_crossing(uint cell, int n) {
     return (cell >> (2 + 2 * n)) & 3u;
+}
+
+int cell_inbound(uint cell) {
+    return int(cell >> 10) & 3;
 }
 
 bool cell_has_own_rays(uint cell) {

@@ -95,7 +95,7 @@ Hits interpolated_hits(uint cell, ivec2 pixel) {
     vec2 place = place_in_grid(pixel);
 #if ORDERS > 0
     vec4 points = textureLod(coarse1, place, 0.0);
-    t1 = first_texel(interpolated_crossing(cell, 0, interpolated(points.xy, bend1, place, pixel)), textureLod(coarse0, place, 0.0).z, 0.0);
+    t1 = first_texel(interpolated_crossing(cell, 0, interpolated(points.xy, bend1, place, pixel)), textureLod(coarse0, place, 0.0).z, float(cell_inbound(cell)));
 #endif
 #if ORDERS > 1
     t2 = vec4(interpolated_crossing(cell, 1, interpolated(points.zw, bend2, place, pixel)), interpolated_crossing(cell, 2, vec2(0.0)));

@@ -83,11 +83,12 @@ void store_hits(Hits traced) {
     Hits hits = only_finite(traced);
     hits0_out = escape_texel(hits.direction, hits.fate, hits.steps);
 #if ORDERS > 0
-    float drift = 0.0;
 #if POST_VIEW_CONSERVATION
-    drift = is_finite(vec3(march_drift)) ? march_drift : 1.0;
+    float rest = is_finite(vec3(march_drift)) ? march_drift : 1.0;
+#else
+    float rest = float(hits.inbound);
 #endif
-    hits1_out = first_texel(hits.crossing[0], hits.lambda, drift);
+    hits1_out = first_texel(hits.crossing[0], hits.lambda, rest);
 #endif
 #if ORDERS > 1
     hits2_out = others_texel(hits.crossing[1], ORDERS > 2 ? hits.crossing[2] : vec2(0.0));

@@ -1,7 +1,7 @@
 // How hits lie in texels: the one place that knows. On the host, blackhole_gl/render/hit_texels.py.
 //
 //   hits0   direction, 4·steps + fate
-//   hits1   crossing 0, λ, drift (for the view of conserved quantities; else 0)     with ORDERS > 0
+//   hits1   crossing 0, λ, inbound (for the view of conserved quantities the drift)  with ORDERS > 0
 //   hits2   crossings 1 and 2                                                       with ORDERS > 1
 //   met0, way0, …   place in r_s and what is met there; w_rate and n_rate of the momentum      a pair for each of MEETINGS
 //   momenta0, momenta1   (k_r, k_θ) at crossings 0 and 1, and at crossing 2         of listed rays alone
@@ -10,8 +10,9 @@ vec4 escape_texel(vec3 direction, int fate, int steps) {
     return vec4(direction, float(4 * steps + fate));
 }
 
-vec4 first_texel(vec2 crossing, float lambda, float drift) {
-    return vec4(crossing, lambda, drift);
+// `rest`: `inbound`, or the drift.
+vec4 first_texel(vec2 crossing, float lambda, float rest) {
+    return vec4(crossing, lambda, rest);
 }
 
 vec4 others_texel(vec2 second, vec2 third) {
@@ -33,6 +34,9 @@ Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
     hits.direction = t0.xyz;
     hits.steps = int(t0.w + 0.5) >> 2;
     hits.crossing = vec2[3](t1.xy, t2.xy, t2.zw);
+#if !POST_VIEW_CONSERVATION
+    hits.inbound = int(t1.w + 0.5);
+#endif
     return hits;
 }
 

@@ -33,6 +33,7 @@ struct Hits {
     float lambda;      // L_z/E in M
     int steps;
     vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of z = 0, nearest along the ray first; zero = none
+    int inbound;       // bit n: at crossing n the light still comes in towards the hole
 #if RAYS_LISTED
     Momentum momentum[3];  // at the crossings
 #endif
@@ -48,6 +49,7 @@ Hits no_hits(float lambda) {
     hits.lambda = lambda;
     hits.steps = 0;
     hits.crossing = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    hits.inbound = 0;
 #if RAYS_LISTED
     Momentum none = Momentum(0.0, vec3(0.0));
     hits.momentum = Momentum[3](none, none, none);
@@ -65,6 +67,7 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
     if (place == 0) hits.crossing[0] = point;
     else if (place == 1) hits.crossing[1] = point;
     else if (place == 2) hits.crossing[2] = point;
+    if (momentum.w_rate < 0.0 && place < 3) hits.inbound |= 1 << place;
 #if RAYS_LISTED
     if (place == 0) hits.momentum[0] = momentum;
     else if (place == 1) hits.momentum[1] = momentum;
