@@ -27,6 +27,7 @@ _SECANTS = 5
 _LONGEST_SECANT = 0.7
 _NEAR, _SETTLED = 1e-3, 1e-4  # of a radius, and of the shadow: secants whose last step is so short end far closer
 _EDGE_POINTS = 720
+_NUDGE = 1e-4  # of a crossing's time: w on its two sides says whether light goes in or out there
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,17 @@ def crossing_radius(rays: Light, order: Int[Array, "*#rays"]) -> Float[Array, "*
     inside = rays.is_bound | (rays.eta <= 0.0)  # light that never meets the plane: it is seen about the axis
     with np.errstate(divide="ignore"):
         return np.where(inside, 0.0, np.where(ends.any(axis=-1), at_end, 0.5 / w[..., -1]))
+
+
+def crossing_momentum(rays: Light, order: Int[Array, "*#rays"], radius: Float[Array, "*rays"]) -> Float[Array, "*rays 3"]:
+    """Covariant (k_r, k_θ, k_φ), (…, 3), of the light that arrives, with E = 1 and M = 1, at crossing `order` of the plane, which is at `radius` (r_s)."""
+    a, lam, eta, w = rays.spin, rays.lam, rays.eta, 0.5 / radius
+    square = 1.0 + w * w * (a * a - lam**2 - eta + w * (2.0 * ((lam - a) ** 2 + eta) - w * a * a * eta))
+    time = _crossing_time(rays, order)
+    before, after = np.moveaxis(_inverse_radius(rays, time[..., None] * (1.0 + _NUDGE * np.array([-1.0, 1.0]))), -1, 0)
+    outwards = np.sign(after - before) * np.sqrt(np.maximum(square, 0.0)) / (1.0 - 2.0 * w + (a * w) ** 2)
+    side = np.where(rays.u != 0.0, np.sign(rays.u), np.sign(rays.u_rate))  # of the plane that crossing 0 comes to
+    return np.stack([outwards, -side * (-1.0) ** order * np.sqrt(np.maximum(eta, 0.0)), np.broadcast_to(lam, outwards.shape)], axis=-1)
 
 
 def circles(
