@@ -33,7 +33,6 @@ out vec4 radiance;
 #if MEETINGS
 #instances
 #slots thing
-#slots medium
 #endif
 
 const float BRIGHTEST = 6.0e4;          // what a half float holds
@@ -96,49 +95,34 @@ Light pass_order(Light light, Hits hits, Crossing crossing, float energy) {
     return after;
 }
 
-#if MEETINGS > 1
-float medium_distance(int kind, int index, vec3 x) {
-#each medium : if (kind == MEDIUM_$KEY) return medium_$key_distance(index, x);
-    return 0.0;
-}
-
-// Where a ray comes out of the medium that it has met: at the next meeting, if that is the way out and was kept; else straight on,
-// no farther than the next meeting if that ends the ray.
-vec3 way_out(Meeting met, Sight sight, Meeting next, bool kept) {
-    bool known = kept && next.kind >= 0;
-    if (known && next.kind == met.kind && next.index == met.index) return next.place;
-    bool ends = false;
-#each thing : if (known && next.kind == THING_$KEY) ends = THING_$KEY_OPAQUE == 1;
-    float most = ends ? distance(next.place, met.place) : 1e4;
-    float within = 0.0, depth = 0.0, way = 0.0;
-    for (int i = 0; i < 128; ++i) {
-        within = way;
-        way += max(depth, 0.01 + 0.05 * way);
-        float beyond = medium_distance(met.kind, met.index, sight.place - way * sight.towards);
-        if (beyond >= 0.0) {
-            way = mix(within, way, depth / max(depth + beyond, 1e-20));
-            break;
-        }
-        depth = -beyond;
-        if (way >= most) break;
-    }
-    return sight.place - min(way, most) * sight.towards;
-}
-#endif
-
 #if MEETINGS
-// What meeting k adds, and what it lets through of what lies behind it.
+// What the thing that is meeting k adds, and what it lets through of what lies behind it.
 Light meeting_light(Hits hits, int k, Sight sight) {
     Light own = Light(vec3(0.0), vec3(1.0));
     Meeting met = hits.meeting[k];
 #each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
-#if MEETINGS > 1
-    vec3 end = way_out(met, sight, hits.meeting[min(k + 1, MEETINGS - 1)], k + 1 < MEETINGS);
-#each medium : if (met.kind == MEDIUM_$KEY && met.enters) own = medium_$key_light(met.index, sight, end);
-#endif
     return own;
 }
 
+#if MEDIA
+#include "common/stretches.glsl"
+
+// The light after the things and media before which `first` to `last` crossings of the disk's plane come; `own`, that of each thing. Where a thing lets light through
+// within a medium, all of the stretch of the medium counts as before it.
+Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
+    for (int before = first; before <= min(last, ORDERS); ++before) {
+        Light stretch = stretch_light(ivec2(gl_FragCoord.xy), before);
+        bool within = false;  // a medium, from the last crossing on
+        for (int k = 0; k < MEETINGS; ++k) within = within || is_medium(hits.meeting[k].kind) && hits.meeting[k].before < before;
+        if (within) light = behind(light, stretch);
+        for (int k = 0; k < MEETINGS; ++k) {
+            Meeting met = hits.meeting[k];
+            if (met.kind >= 0 && met.before == before) light = behind(light, is_medium(met.kind) ? stretch : own[k]);
+        }
+    }
+    return light;
+}
+#else
 // The light after the meetings before which `first` to `last` crossings of the disk's plane come; `own`, that of each.
 Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
     for (int k = 0; k < MEETINGS; ++k) {
@@ -149,6 +133,7 @@ Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int 
     }
     return light;
 }
+#endif
 #endif
 
 void main() {

@@ -74,6 +74,8 @@ def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
         found[name] = number
         if kind.slot == "thing":
             found[f"{name}_OPAQUE"] = int(kind.traits.opaque)
+        else:
+            found[f"{name}_BOLOMETRIC"] = int(kind.traits.bolometric)
     return found
 
 

@@ -11,12 +11,13 @@ from .classes import EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, SKY, THINGS, Where
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
-from .programs import SHADE_SLOTS, Draw, Programs, Samplers, chosen
+from .programs import RAY_SLOTS, SHADE_SLOTS, Draw, Programs, Samplers, chosen
 from .sorting import PixelSorting, Sorted
 from .squares import Squares
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
+from .transfer import TransferPass
 
 _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
@@ -36,12 +37,14 @@ class ShadePass:
 
     Attributes:
         sorting: of the pixels of sharp maps.
+        transfer: what the media of the last frame add.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
         self._ctx, self._programs = ctx, programs
         self._tables, self._temperatures = tables, temperatures
         self.sorting = PixelSorting(ctx, programs)
+        self.transfer = TransferPass(ctx)
         self._sorted: Sorted | None = None  # the pixels of the last sharp map
         self._boxes: dict[Where, Box] = {}  # not known before the second frame of the same pixels
         self._frame: moderngl.Framebuffer | None = None
@@ -55,6 +58,8 @@ class ShadePass:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size). Alpha: the share of the sky's light that comes through, where single stars were left
         out because the picture is to be shown enlarged; else 0, or without meaning in a picture that is not."""
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
+        if inputs.plan.scene.media:
+            self._march_media(inputs, hit_map, classes)
         frame = self._attached(target, classes)
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
@@ -77,6 +82,11 @@ class ShadePass:
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
         self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else None)
+
+    def _march_media(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> None:
+        march = self._prepared("transfer.frag", inputs, hit_map, hit_map.switches())
+        march.set(meeting_reach=inputs.plan.reach)
+        self.transfer.draw(march, hit_map, classes)
 
     def _lay_sky(
         self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, frame: moderngl.Framebuffer, classes: moderngl.Texture
@@ -136,6 +146,7 @@ class ShadePass:
         """Gives the GL objects back."""
         self._release_targets()
         self.sorting.release()
+        self.transfer.release()
         self._sorted = None
 
     def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
@@ -161,6 +172,8 @@ class ShadePass:
         found: dict[str, moderngl.Texture | moderngl.TextureArray] = {**hit_map.samplers(), **declared}
         if inputs.plan.meetings:
             found |= {**hit_map.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
+        if scene.media:
+            found |= {**self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene), **self.transfer.samplers}
         return {**found, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _draw_classes(self, prepared: Draw, where: Where, box: Box | None = None, squares: Squares | None = None) -> None:

@@ -48,6 +48,7 @@ _SHADE_MEMBERS = (
     ("disk_r_out", "float"),
     ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
     ("hole_spin_complement", "float"),  # 1 − |a*|
+    ("plan_medium_step", "float"),  # share of a medium's scale
 )
 
 
@@ -148,6 +149,7 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
         disk_r_out=plan.disk_outer,
         disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
         hole_spin_complement=1.0 - abs(plan.space_time.spin),
+        plan_medium_step=plan.scene.rays.medium_step,
         **_declared(scene, of_rays=False),
     )
 
@@ -169,7 +171,7 @@ def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0}
-    found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, **instances.switches(instances.used(plan.scene))}
+    found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}

@@ -53,7 +53,7 @@ KIND = "kind"
 SWITCH = "enabled"
 """What stands for a layer's own switch among its parameters in a file, which none of them may be called."""
 
-_OF_INSTANCES = (KIND, "count", "bound", "centre", "velocity", "spin", "attitude", "finish", "distance", "crossing", "light")
+_OF_INSTANCES = (KIND, "count", "bound", "centre", "velocity", "spin", "attitude", "finish", "distance", "crossing", "light", "scale", "matter")
 """What shaders and scenes call something else of an instance."""
 
 _RESERVED: Mapping[str, tuple[str, ...]] = {"disk_layer": (SWITCH,), "thing": _OF_INSTANCES, "medium": _OF_INSTANCES}

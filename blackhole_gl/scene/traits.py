@@ -155,7 +155,15 @@ class ThingTraits(MetTraits):
 
 @dataclass(frozen=True)
 class MediumTraits(MetTraits):
-    """A kind of medium that rays may go through."""
+    """A kind of medium that rays may go through.
+
+    Attributes:
+        bolometric: whether its light is that of all frequencies; else of the one that is seen.
+        changes: whether its light changes with time on a ray that stays the same.
+    """
+
+    bolometric: bool = True
+    changes: bool = False
 
 
 @dataclass(frozen=True)

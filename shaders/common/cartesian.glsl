@@ -164,6 +164,10 @@ Momentum ray_momentum(Orbit orbit, State s) {
     return found;
 }
 
+float ray_affine_rate(Orbit orbit, State s) {
+    return 1.0;
+}
+
 vec2 ray_plane_point(State s) {
     return twisted(s.x.xy, s.twist);
 }

@@ -38,9 +38,9 @@ Approach field_approach(RayStart start) {
 #if MEETINGS
     reach += meeting_reach;
 #endif
-    float begin = camera_w > 0.0 ? -0.5 * cosine / start.w : -2.0 * reach;
+    float begin = start.w > 0.0 ? -0.5 * cosine / start.w : -2.0 * reach;
 #if ORDERS > 0
-    if (camera_w == 0.0 && v.z != 0.0) begin -= abs(nearest.z / v.z);
+    if (start.w == 0.0 && v.z != 0.0) begin -= abs(nearest.z / v.z);
 #endif
     float half_chord = sqrt(max((rays_field_radius - b) * (rays_field_radius + b), 0.0));
     return Approach(nearest, v, begin, max(begin, -half_chord), half_chord);
@@ -82,9 +82,9 @@ Orbit ray_orbit(RayStart start) {
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     Approach way = field_approach(start);
     // A camera in the plane z = 0 is in it exactly.
-    vec3 x = camera_w > 0.0 ? start.n * (0.5 / start.w) : way.nearest + way.begin * way.v;
+    vec3 x = start.w > 0.0 ? start.n * (0.5 / start.w) : way.nearest + way.begin * way.v;
 #if MEETINGS
-    meet_at_an_end(x, momentum_at(x, way.v), true, hits);
+    meet_at_start(x, momentum_at(x, way.v), hits);
 #endif
     if (orbit.bends > 0.0 && way.enter > way.begin) {
         if (field_leg(x, way.v, way.enter - way.begin, hits)) hits.fate = MET;
@@ -179,6 +179,10 @@ float ray_height_rate(State s) {
 
 float ray_elevation(State s) {
     return s.x.z / ray_radius(s);
+}
+
+float ray_affine_rate(Orbit orbit, State s) {
+    return length(s.v);
 }
 
 vec2 ray_plane_point(State s) {

@@ -14,6 +14,7 @@
 //     vec2  ray_plane_point(State)                r·(cos φ, sin φ) in r_s
 //     Path  ray_path(Orbit, State)                where it is in space, with rates (common/curve.glsl)
 //     Momentum ray_momentum(Orbit, State)         (common/hits.glsl)
+//     float ray_affine_rate(Orbit, State)         ds/dσ: affine length in r_s, of a photon with E = 1, by the parameter of the march; its length where space is flat
 // and, for those integrators and step controls that ask for them,
 //     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
 //     State state_push(State s, float h2, State k)      places moved by h2 times the rates of their rates
@@ -32,16 +33,7 @@
 //     State adapted_step(Orbit, State s, inout float trial, out float h)   one step of length h ≤ trial; rejected: s itself, with h = 0
 // An integrator gives integrator_step(Orbit, State, float h), one with an error estimate also integrator_pair and INTEGRATOR_ERROR_POWER.
 
-State completed(Orbit orbit, State s, float h, State next) {
-#ifdef RAY_QUADRATURE
-    RAY_QUADRATURE(orbit, s, h, next);
-#endif
-    return next;
-}
-
-State march_step(Orbit orbit, State s, float h) {
-    return completed(orbit, s, h, integrator_step(orbit, s, h));
-}
+#include "common/march_step.glsl"
 
 #if ORDERS > 0
 // The side of the plane that a ray is on; in the plane, the one it heads for, so that the camera's own place there does not count.
@@ -211,7 +203,7 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
 #else
     there = state_drift(there, slip);
 #endif
-    add_meeting(hits, found.kind, found.index, found.enters, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), is_opaque(found.kind));
+    meet(found, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), hits);
 }
 
 // All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.
@@ -274,7 +266,7 @@ Hits trace_ray(RayStart start) {
 #if MEETINGS
     vec4 place = path_place(ray_path(orbit, m.s));
 #ifndef RAY_MEETS_BEYOND
-    if (place.w > 0.0) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.s), true, hits);
+    if (place.w > 0.0) meet_at_start(place.xyz / place.w, ray_momentum(orbit, m.s), hits);
 #endif
     // From event to event, whatever it is. Between them steps are stopped for where something may be met.
     bool met = hits.fate == MET;
@@ -303,8 +295,6 @@ Hits trace_ray(RayStart start) {
         if (!met) met = meet_in_step(orbit, m, way, end, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
-    place = path_place(ray_path(orbit, m.next));
-    if (m.fate == CAPTURED) meet_at_an_end(place.xyz / place.w, ray_momentum(orbit, m.next), false, hits);
 #else
     march_on(orbit, ORDERS > 0, m);
     float end = march_end(orbit, m);

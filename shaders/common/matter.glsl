@@ -55,4 +55,29 @@ float emitted_shift(Sight sight, vec3 velocity) {
 #endif
     return sqrt(max(clock, 0.0)) / max(seen, 1e-3);
 }
+
+// What a medium is at a place, in the frame of its matter.
+struct Matter {
+    vec3 emission;    // radiance that it adds on 1 r_s, of all frequencies or of the one that is seen
+    vec3 absorption;  // optical depth of 1 r_s
+    float shift;      // E_infinity/E of light there, as emitted_shift tells; 0: there can be no matter
+};
+
+// E_infinity/E_emitter of matter that turns about the axis with u_φ = −l u_t and nothing else: l in M, its angular momentum over its energy. Exact down to the
+// horizon, as no difference is formed: with Q(x, y) = A − 2 a r (x + y) − x y (Δ/sin²θ − a²) it is √(ΣΔ Q(l, l))/Q(λ, l). M = 1. 0 where no matter can turn so.
+float circling_shift(Sight sight, float l) {
+    float r = 2.0 * length(sight.place);
+    vec3 n = sight.place * (2.0 / r);
+    float sine = max(length(n.xy), 1e-4), lambda = n.y * sight.momentum.n_rate.x - n.x * sight.momentum.n_rate.y;
+#if SPACE_TIME_FLAT
+    float a = 0.0, delta = r * r;
+#else
+    float a2 = hole_w_factors.x * hole_w_factors.y, a = hole_spin < 0.0 ? -sqrt(a2) : sqrt(a2);
+    float delta = (r - hole_w_factors.x) * (r - hole_w_factors.y);
+#endif
+    float sigma = r * r + a * a * n.z * n.z, wide = r * r + a * a, square = wide * wide - delta * a * a * sine * sine, turn = delta / (sine * sine) - a * a;
+    float own = square - 4.0 * a * r * l - l * l * turn;
+    float seen = square - 2.0 * a * r * (lambda + l) - lambda * l * turn;
+    return sqrt(max(sigma * delta * own, 0.0)) / max(seen, 1e-6);
+}
 #endif

@@ -36,6 +36,11 @@ bool tells_distance(int kind) {
     return true;
 }
 
+bool is_medium(int kind) {
+#each medium : if (kind_$key(kind)) return true;
+    return false;
+}
+
 const int MOST_PROBES = 256;
 const int MOST_PIECES = 256;
 // How far a piece that a thing is tested against may be from the way, which moves its outline by as much: a share of its size, and never more than so many r_s.
@@ -54,11 +59,12 @@ float overstep(float size, vec3 x) {
 float traced_part(int kind, int index, float size, vec3 x, vec3 y, out bool enters) {
     float way = distance(x, y), over = overstep(size, x), part = 2.0;
     float s = 0.0, before = distance_to(kind, index, x);
+    float rounding = 1e-6 + 3e-7 * length(x);  // of places along it and of distances there
     vec3 along = (y - x) / max(way, 1e-20);
     enters = before >= 0.0;
     for (int i = 0; i < MOST_PROBES; ++i) {
         float next = min(s + 0.9 * abs(before) + over, way), after = distance_to(kind, index, x + next * along);
-        bool met = (after < 0.0) != (before < 0.0) && abs(before) + abs(after) <= 1.001 * (next - s) + 1e-6;
+        bool met = (after < 0.0) != (before < 0.0) && abs(before) + abs(after) <= 1.001 * (next - s) + rounding;
         if (met) {
             part = mix(s, next, abs(before) / max(abs(before) + abs(after), 1e-20)) / max(way, 1e-20);
             break;
@@ -90,6 +96,13 @@ struct Found {
 };
 
 const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
+
+// Of media only the first that is entered is kept: transfer.frag goes on from there, and finds the others and the ways out itself.
+void meet(Found found, vec3 place, Momentum momentum, inout Hits hits) {
+    bool known = false;
+    for (int k = 0; k < MEETINGS; ++k) known = known || is_medium(hits.meeting[k].kind);
+    if (!is_medium(found.kind) || found.enters && !known) add_meeting(hits, found.kind, found.index, found.enters, place, momentum, is_opaque(found.kind));
+}
 
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
 // `stray`, the piece is too long for what it is near to, and nothing else is told.
@@ -238,9 +251,9 @@ float meeting_root(Way way, Found found) {
     return t;
 }
 
-// A ray that begins inside a medium, at a camera there, has gone into it where it begins; one that ends inside has come out where it ends.
-void meet_at_an_end(vec3 x, Momentum momentum, bool begins, inout Hits hits) {
-#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) add_meeting(hits, MEDIUM_$KEY, i, begins, x, momentum, false);
+// A ray that begins inside a medium, at a camera there, has gone into it where it begins.
+void meet_at_start(vec3 x, Momentum momentum, inout Hits hits) {
+#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true), x, momentum, hits);
 }
 
 // All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
@@ -261,17 +274,15 @@ bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, 
         }
         if (none) return false;
         vec3 y = x + s * v;
-        add_meeting(hits, found.kind, found.index, found.enters, y, momentum_at(y, v), is_opaque(found.kind));
+        meet(found, y, momentum_at(y, v), hits);
         if (is_opaque(found.kind)) return true;
         from = s + 2.0 * overstep(found.size, y);
     }
     return false;
 }
 
-// The same on the whole way of a ray: it may begin and end inside a medium.
+// The same on the whole way of a ray: it may begin inside a medium.
 bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
-    meet_at_an_end(x, momentum_at(x, v), true, hits);
-    if (meet_along_line(x, v, s_end, s_crossing, point, hits)) return true;
-    if (s_end < 1e29) meet_at_an_end(x + s_end * v, momentum_at(x + s_end * v, v), false, hits);
-    return false;
+    meet_at_start(x, momentum_at(x, v), hits);
+    return meet_along_line(x, v, s_end, s_crossing, point, hits);
 }

@@ -8,6 +8,8 @@ struct RayStart {
     vec3 n_rate;   // at right angles to n
     float lambda;  // L_z/E of the physical photon
     float energy;  // +1; −1 for light that only the ergosphere holds
+    vec3 e_theta, e_phi;  // unit vectors there
+    float sine;    // of the angle from the spin axis
 };
 
 // Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. RAYS_IN_BLOCKS: what is drawn are not pixels side by side but blocks of
@@ -50,5 +52,8 @@ RayStart ray_start(vec3 local) {
     ray.n_rate = rates.y * camera_e_theta.xyz + rates.z * camera_e_phi.xyz;
     ray.energy = start.x < 0.0 ? -1.0 : 1.0;
     ray.lambda = -ray.energy * rates.z * camera_n.w;
+    ray.e_theta = camera_e_theta.xyz;
+    ray.e_phi = camera_e_phi.xyz;
+    ray.sine = camera_n.w;
     return ray;
 }

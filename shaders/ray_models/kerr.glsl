@@ -124,6 +124,10 @@ Momentum ray_momentum(Orbit orbit, State s) {
     return Momentum(s.w_rate, vec3(rotate(s.n_rate.xy, cos_sin(s.twist)), s.n_rate.z));
 }
 
+float ray_affine_rate(Orbit orbit, State s) {
+    return 0.5 * (1.0 / (s.w * s.w) + hole_spin * hole_spin * s.n.z * s.n.z);  // Σ
+}
+
 vec2 ray_plane_point(State s) {
     return rotate(s.n.xy, cos_sin(s.twist)) * inversesqrt(4.0 * s.w * s.w * dot(s.n.xy, s.n.xy));
 }

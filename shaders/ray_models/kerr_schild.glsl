@@ -71,8 +71,8 @@ Orbit ray_orbit(RayStart start) {
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     float chart = start.w_rate >= 0.0 ? 1.0 : -1.0;
     float a = -chart * hole_spin, w = start.w, aw = a * w;
-    float cosine = start.n.z, sine = camera_n.w;
-    float l_over_sine = dot(start.n_rate, camera_e_phi.xyz), p_theta = dot(start.n_rate, camera_e_theta.xyz);
+    float cosine = start.n.z, sine = start.sine;
+    float l_over_sine = dot(start.n_rate, start.e_phi), p_theta = dot(start.n_rate, start.e_theta);
     // p_r of the chart, ∓(P − √R)/Δ ± 1, with the difference formed as K/(P + √R).
     float k = dot(start.n_rate, start.n_rate) + hole_spin * (hole_spin * sine * sine - 2.0 * start.lambda);
     float carter_p = start.energy * (1.0 + w * w * hole_spin * (hole_spin - start.lambda));
@@ -85,7 +85,7 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     float stretch = sqrt(1.0 + aw * aw * sine * sine);
 
     vec2 lag = cos_sin(hole_spin * chart * azimuth_lag(w));
-    vec2 e = rotate(camera_e_phi.xy, lag), u = vec2(e.y, -e.x);
+    vec2 e = rotate(start.e_phi.xy, lag), u = vec2(e.y, -e.x);
     State s;
     s.n = vec3(sine * (u + aw * e), cosine) / stretch;
     s.w = w / stretch;
@@ -262,6 +262,10 @@ Path ray_path(Orbit orbit, State s) {
     float turn = -a * w * (2.0 * s.energy + a * s.l.z * w) / ((1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y));
     vec3 n_rate = momentum.n_rate + turn * vec3(-n.y, n.x, 0.0);
     return Path(vec4(n, 2.0 * w), ray_mino_rate(s) * vec4(n_rate, 2.0 * momentum.w_rate), vec2(0.0));
+}
+
+float ray_affine_rate(Orbit orbit, State s) {
+    return 0.5 / (s.w * s.w);
 }
 
 vec2 ray_plane_point(State s) {

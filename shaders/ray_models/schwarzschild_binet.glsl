@@ -106,6 +106,10 @@ Momentum ray_momentum(Orbit orbit, State s) {
     return Momentum(s.w_rate, s.b * (turn.x * s.aside - turn.y * s.n));
 }
 
+float ray_affine_rate(Orbit orbit, State s) {
+    return 0.5 / (s.w * s.w);
+}
+
 vec2 ray_plane_point(State s) {
     vec2 turn = cos_sin(s.angle);
     return normalize(turn.x * s.n.xy + turn.y * s.aside.xy) * (0.5 / s.w);

@@ -1,0 +1,78 @@
+"""The light of media: what they add to each ray and let through, marched again from where the hit map has the ray enter them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import moderngl
+
+from ..plan import Plan
+from ..scene import met
+from .classes import THINGS, drawn
+from .hit_map import HitMap
+from .programs import Draw
+
+
+class TransferPass:
+    """Draws shaders/transfer.frag into textures of its own, and keeps what it drew as long as neither the rays nor the media's light change.
+
+    Attributes:
+        marches: how many times it has drawn, for tests.
+    """
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self.marches = 0
+        self._textures: list[moderngl.Texture] = []
+        self._frame: moderngl.Framebuffer | None = None
+        self._key: tuple | None = None
+
+    def draw(self, march: Draw, hit_map: HitMap, classes: moderngl.Texture) -> None:
+        """Draws with `march`, its samplers bound, the pixels of `hit_map` that meet something by their `classes`, unless that is what the textures hold."""
+        inputs = march.inputs
+        plan = inputs.plan
+        key = (hit_map.generation, march.serial, plan.scene.rays.medium_step, inputs.time if changes(plan) else 0.0)
+        if key == self._key and self._frame is not None and self._frame.depth_attachment is classes:
+            return
+        self._fit(classes, stretches(plan))
+        self._key = key
+        self.marches += 1
+        if self._frame is not None:
+            self._frame.use()
+        self._ctx.disable(moderngl.BLEND)
+        with drawn(self._ctx, march, THINGS):
+            march.draw()
+
+    @property
+    def samplers(self) -> Mapping[str, moderngl.Texture]:
+        """What shaders/common/stretches.glsl reads, by name."""
+        return {f"{('gathered', 'passed')[place % 2]}{place // 2}": texture for place, texture in enumerate(self._textures)}
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for item in (self._frame, *self._textures):
+            if item is not None:
+                item.release()
+        self._textures, self._frame, self._key = [], None, None
+
+    def _fit(self, classes: moderngl.Texture, count: int) -> None:
+        """A pair of textures for each of `count` stretches, of the size of `classes`, which stay their owner's."""
+        held = self._frame is not None and self._frame.depth_attachment is classes
+        if held and len(self._textures) == 2 * count:
+            return
+        self.release()
+        self._textures = [self._ctx.texture(classes.size, 4, dtype="f4") for _ in range(2 * count)]
+        for texture in self._textures:
+            texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        self._frame = self._ctx.framebuffer(self._textures, classes)
+        self._frame.depth_mask = False
+
+
+def stretches(plan: Plan) -> int:
+    """How many parts a ray has between crossings of the disk's plane."""
+    return plan.orders + 1
+
+
+def changes(plan: Plan) -> bool:
+    """Whether a medium's light is another at another time on rays that stay the same."""
+    return any(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))

@@ -1,0 +1,216 @@
+#version 330 core
+// Hit map and time → what the media on a ray add to its light and let through, of each stretch of the ray between crossings of the disk's plane.
+//
+// The hit map keeps where a ray goes into its first medium, and with which momentum. From there the ray is marched again, by its own model and integrator (straight
+// where that is what flat space has), to where it leaves all media for good, falls into the hole, meets the opaque thing that the hit map has it end on, or next to
+// nothing comes through any more. So several media may overlap, and be met again on the far side of a hole.
+//
+// With s the affine parameter of a photon that has E = 1 far away and shift = E_∞/E in the matter's frame, ds/shift is the way that the matter sees, and
+//     dI = (shift·E_observer/E_∞)^p emission ds/shift − I absorption ds/shift        p: 4 of all frequencies, 3 of one
+// A piece of the ray whose coefficients are the means of those at its ends is solved exactly.
+//
+// Contract of a medium (shaders/media/<key>.glsl): medium_<key>_distance (common/meetings.glsl), and
+//     float  medium_<key>_scale(int i, vec3 x)          the length in r_s on which its light and its motion change by about as much as they are, at x, in it or not;
+//                                                       steps are a share of it
+//     Matter medium_<key>_matter(int i, Sight sight)    what is there (common/matter.glsl); may be asked outside of it
+// Header: bolometric, false for light of one frequency; changes, true where its light is another at another time though the ray is the same.
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/observer.glsl"
+#include "common/rotation.glsl"
+#include "common/hermite.glsl"
+#include "common/hits.glsl"
+#include "common/curve.glsl"
+#include "common/hit_map_read.glsl"
+#include "common/matter.glsl"
+#instances
+#slots thing
+#slots medium
+#include "common/meetings.glsl"
+#if MARCHED
+#slot ray_model
+#slot integrator
+#include "common/march_step.glsl"
+#else
+#include "common/straight_march.glsl"
+#endif
+
+layout(location = 0) out vec4 gathered0;
+layout(location = 1) out vec4 passed0;
+#if ORDERS > 0
+layout(location = 2) out vec4 gathered1;
+layout(location = 3) out vec4 passed1;
+#endif
+#if ORDERS > 1
+layout(location = 4) out vec4 gathered2;
+layout(location = 5) out vec4 passed2;
+#endif
+#if ORDERS > 2
+layout(location = 6) out vec4 gathered3;
+layout(location = 7) out vec4 passed3;
+#endif
+
+const int MOST_STEPS_ON = 4096;
+const float LEAST_PASSED = 1.0 / 512.0;
+const float MOST_DEPTH = 0.5;          // of a piece, as its ends see it
+const float FINE_SHARE = 1e-3;         // of a medium's scale: how exactly its surface is found
+const float HORIZON_MARGIN = 2e-5;     // of its radius: where rays end that fall in
+
+// A place on the ray.
+struct Here {
+    vec3 x, towards;     // r_s; to the camera
+    float speed;         // r_s by the parameter of the march
+    float affine;        // affine length by r_s
+    vec3 gains, loses;   // of light, by affine length
+    float step, fine;    // r_s to go at most; and to be exact to at surfaces
+    float edge;          // r_s to the nearest surface of a medium
+    int within;          // which media it is in: a bit each
+};
+
+void add_matter(inout Here here, inout int bit, float off, float scale, Matter matter, bool bolometric, float energy) {
+    bool inside = off < 0.0 && matter.shift > 0.0;
+    float way = inside ? 1.0 / matter.shift : 0.0, seen = matter.shift * energy;
+    float power = seen * seen * seen * (bolometric ? seen : 1.0);
+    here.gains += inside ? way * power * matter.emission : vec3(0.0);
+    here.loses += inside ? way * matter.absorption : vec3(0.0);
+    here.within ^= off < 0.0 ? bit : 0;
+    here.edge = min(here.edge, abs(off));
+    here.fine = min(here.fine, FINE_SHARE * scale);
+    here.step = min(here.step, off < 0.0 ? plan_medium_step * scale : off + FINE_SHARE * scale);
+    bit = bit >= (1 << 30) ? 1 : 2 * bit;
+}
+
+// Radius of the hole, r_s, as far as rays are followed.
+float inner_radius() {
+    return 0.5 * hole_w_factors.x * min(hole_horizon_size, 1.0);
+}
+
+// `end`: the opaque thing that the ray ends on; far away where there is none.
+Here here_at(Orbit orbit, State s, Sight first, vec3 end, vec3 left) {
+    Path path = ray_path(orbit, s);
+    Here here;
+    here.x = path_point(path);
+    vec3 velocity = path_velocity(path);
+    here.speed = length(velocity);
+    here.towards = -velocity / here.speed;
+    here.affine = ray_affine_rate(orbit, s) / here.speed;
+    here.gains = here.loses = vec3(0.0);
+    here.step = here.fine = here.edge = 1e30;
+    here.within = 0;
+    Sight sight = Sight(here.x, here.towards, first.energy, true, ray_momentum(orbit, s), first.right, first.up);
+    int bit = 1;
+#each medium : for (int i = 0; i < medium_$key_count; ++i) add_matter(here, bit, medium_$key_distance(i, here.x), medium_$key_scale(i, here.x), medium_$key_matter(i, sight), MEDIUM_$KEY_BOLOMETRIC == 1, sight.energy);
+    // The way bends and clocks change with the radius, and near the horizon with the height above it.
+    float r = length(here.x), most = plan_medium_step * r;
+    if (here.within != 0) most = min(most, 2.0 * plan_medium_step * max(r - inner_radius(), 0.5 * HORIZON_MARGIN * inner_radius()));
+    vec3 depth = mix(vec3(0.0), here.loses * here.affine, greaterThan(left, vec3(LEAST_PASSED)));
+    most = min(most, MOST_DEPTH / max(max(max(depth.x, depth.y), depth.z), 1e-20));
+    here.step = min(min(here.step, most), max(distance(here.x, end), here.fine));
+    return here;
+}
+
+// Light after `way` more through matter that gains and loses so much.
+Light after_piece(Light light, vec3 gains, vec3 loses, float way) {
+    vec3 depth = loses * way, share = (1.0 - exp(-depth)) / max(depth, vec3(1e-20));
+    vec3 series = 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0 - depth / 120.0)));
+    share = mix(share, series, lessThan(depth, vec3(0.2)));
+    return Light(light.gathered + light.passed * share * gains * way, light.passed * exp(-depth));
+}
+
+RayStart start_at(Meeting met, float energy) {
+    float r = length(met.place);
+    RayStart ray;
+    ray.w = 0.5 / r;
+    ray.w_rate = met.momentum.w_rate;
+    ray.n = met.place / r;
+    ray.n_rate = met.momentum.n_rate - dot(met.momentum.n_rate, ray.n) * ray.n;
+    ray.sine = length(ray.n.xy);
+    ray.e_phi = ray.sine > 1e-6 ? vec3(-ray.n.y, ray.n.x, 0.0) / ray.sine : vec3(0.0, 1.0, 0.0);
+    ray.e_theta = cross(ray.e_phi, ray.n);
+    ray.energy = energy;
+    ray.lambda = -energy * ray.sine * dot(ray.n_rate, ray.e_phi);
+    return ray;
+}
+
+void main() {
+    Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
+    vec3 local = pixel_direction(picture_place(gl_FragCoord.xy));
+    Meeting met = hits.meeting[0];
+    vec3 end = vec3(1e15);
+    for (int k = 0; k < MEETINGS; ++k) {
+        Meeting found = hits.meeting[k];
+        if (is_medium(found.kind)) met = found;
+        if (found.kind >= 0 && hits.fate == MET) end = found.place;
+    }
+    bool any = is_medium(met.kind);
+    Sight first = sight_of(met, 1.0 / max(pixel_energy_ratio(local), 1e-6));
+
+    Light light[ORDERS + 1];
+    for (int n = 0; n <= ORDERS; ++n) light[n] = Light(vec3(0.0), vec3(1.0));
+    vec3 left = vec3(1.0);
+    int stretch = min(met.before, ORDERS);
+
+    RayStart start = start_at(met, ray_start(local).energy);
+    Orbit orbit = ray_orbit(start);
+    State s = ray_init(start, orbit, hits);
+    Here here = here_at(orbit, s, first, end, left);
+    float changes_in = 0.0, edge_there = 0.0;  // where in front of it other media are known to be, in the parameter of the march; 0: nowhere
+    for (int i = 0; i < MOST_STEPS_ON; ++i) {
+        if (!any) break;
+        float h = min(here.step / here.speed, ray_plain_step(orbit, s)), fine = here.fine / here.speed;
+        if (changes_in > 0.0) h = min(h, changes_in <= fine ? changes_in : changes_in * clamp(here.edge / max(here.edge + edge_there, 1e-20), 0.02, 0.98));
+        State next = march_step(orbit, s, h);
+        Here there = here_at(orbit, next, first, end, left);
+        bool changes = there.within != here.within;
+        if (changes && h > fine) {
+            changes_in = h;
+            edge_there = there.edge;
+            continue;
+        }
+        changes_in = changes ? 0.0 : max(changes_in - h, 0.0);
+
+        vec3 turn = there.towards - here.towards;
+        float way = distance(there.x, here.x) * (1.0 + dot(turn, turn) / 24.0) * 0.5 * (here.affine + there.affine);
+        float share = changes ? here.edge / max(here.edge + there.edge, 1e-20) : 0.5;  // of the piece that is as it begins
+        vec3 gains = mix(there.gains, here.gains, share), loses = mix(there.loses, here.loses, share);
+        float crossed = 1.0;
+#if ORDERS > 0
+        bool crosses = (here.x.z < 0.0) != (there.x.z < 0.0) && length(there.x) > crossing_r_min;
+        if (crosses) crossed = abs(here.x.z) / max(abs(here.x.z) + abs(there.x.z), 1e-20);
+#endif
+        for (int n = 0; n <= ORDERS; ++n)
+            if (n == stretch) light[n] = after_piece(light[n], gains, loses, crossed * way);
+#if ORDERS > 0
+        if (crosses) {
+            stretch = min(stretch + 1, ORDERS);
+            for (int n = 0; n <= ORDERS; ++n)
+                if (n == stretch) light[n] = after_piece(light[n], gains, loses, (1.0 - crossed) * way);
+        }
+#endif
+        left *= exp(-loses * way);
+        float r = length(there.x);
+        bool ended = all(lessThan(left, vec3(LEAST_PASSED))) || r < (1.0 + HORIZON_MARGIN) * inner_radius() || ray_fate(orbit, next) == ESCAPED;
+        ended = ended || r > meeting_reach && dot(there.x, there.towards) < 0.0 || distance(there.x, end) <= there.fine;
+#ifdef RAY_RECHARTS
+        next = ray_recharted(s, next);
+#endif
+        s = next;
+        here = there;
+        if (ended) break;
+    }
+    gathered0 = vec4(light[0].gathered, 1.0);
+    passed0 = vec4(light[0].passed, 1.0);
+#if ORDERS > 0
+    gathered1 = vec4(light[1].gathered, 1.0);
+    passed1 = vec4(light[1].passed, 1.0);
+#endif
+#if ORDERS > 1
+    gathered2 = vec4(light[2].gathered, 1.0);
+    passed2 = vec4(light[2].passed, 1.0);
+#endif
+#if ORDERS > 2
+    gathered3 = vec4(light[3].gathered, 1.0);
+    passed3 = vec4(light[3].passed, 1.0);
+#endif
+}
