@@ -73,6 +73,7 @@ class Renderer:
     Attributes:
         programs: the compiled programs; ``programs.reload()`` takes up changed shader files.
         hit_map: the last trace.
+        transfer: what the media of the last picture add to each ray.
         edges: the pixels of the last picture that have several rays.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
         exposure: what makes automatic exposure up.
@@ -87,6 +88,7 @@ class Renderer:
         self._sample_map = HitMap(ctx, self.programs, self._tables)
         self._mean = supersampling.Mean(ctx)
         self._shade = ShadePass(ctx, self.programs, self._tables, self._temperatures)
+        self.transfer = self._shade.transfer
         self.edges = EdgeRays(ctx, self.programs, self._tables, self._temperatures, self._shade.sorting)
         self._views = diagnostics.ViewPass(ctx, self.programs, self._temperatures)
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import moderngl
+import numpy as np
 
 from ..plan import Plan
 from ..scene import met
+from ..shapes import Float
 from .classes import THINGS, drawn
 from .hit_map import HitMap
 from .programs import Draw
@@ -47,6 +49,12 @@ class TransferPass:
     def samplers(self) -> Mapping[str, moderngl.Texture]:
         """What shaders/common/stretches.glsl reads, by name."""
         return {f"{('gathered', 'passed')[place % 2]}{place // 2}": texture for place, texture in enumerate(self._textures)}
+
+    def read(self) -> tuple[Float[np.ndarray, "stretches height width 3"], Float[np.ndarray, "stretches height width 3"]]:
+        """What media add and let through, float32 (stretches, height, width, 3), row 0 at the bottom; without meaning where a ray meets none."""
+        shape = self._textures[0].height, self._textures[0].width, 4
+        texels = [np.frombuffer(texture.read(), np.float32).reshape(shape)[..., :3] for texture in self._textures]
+        return np.stack(texels[::2]), np.stack(texels[1::2])
 
     def release(self) -> None:
         """Gives the GL objects back."""

@@ -191,7 +191,7 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
     State there;
     float t = meeting_root(way, found), slip = 0.0;
     for (int i = 0; i < 2; ++i) {  // the first time from where the curve has it, which a long step leaves by more than the march
-        t = clamp(t + slip / way.h, 0.0, 1.0);
+        t = clamp(t + slip / way.h, max(0.5 * t, way.a.place.w > 0.0 ? 0.0 : FAR_END), 1.0);  // never where a far ray begins, which is no place
         there = march_step(orbit, a, way.h * t);
         Path path = ray_path(orbit, there);
         vec3 velocity = path_velocity(path);

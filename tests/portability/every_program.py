@@ -121,6 +121,7 @@ def _of_instances() -> Iterator[Wanted]:
                 continue  # this model cannot
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
+            drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1}), ("trace.frag", beside_none)):
                 yield path, f"{kind} by {model}", made, switches
             if made.integrator is not None:  # rays in closed form are not looked for coarsely

@@ -177,9 +177,12 @@ float medium_fog_distance(int i, vec3 x) {
     return length(x) - medium_fog_radius(i);
 }
 
-Light medium_fog_light(int i, Sight sight, vec3 end) {
-    vec3 passed = exp(-distance(sight.place, end) * vec3(0.1, 0.2, 0.4));
-    return Light(1.0 - passed, passed);
+float medium_fog_scale(int i, vec3 x) {
+    return medium_fog_radius(i);
+}
+
+Matter medium_fog_matter(int i, Sight sight) {
+    return Matter(vec3(0.1, 0.2, 0.4), vec3(0.1, 0.2, 0.4), 1.0);
 }
 """
 
@@ -192,19 +195,30 @@ from blackhole_gl.scene import presets
 
 renderer = Renderer(create_headless())
 quiet = {"rays.lensing": False, "hole.spin": 0.0, "disk.enabled": False, "sky.enabled": False, "post.bloom": False, "camera.fov_deg": 60.0, "rays.edges": 1}
+scale = math.tan(math.radians(30.0)) / 60
+x, y = np.meshgrid((2 * (np.arange(90) + 0.5) - 90) * scale, (2 * (np.arange(60)[::-1] + 0.5) - 60) * scale)
+cosine = 1.0 / np.sqrt(1.0 + x**2 + y**2)
+
+def chord(distance, radius):
+    root = np.sqrt(np.maximum(radius**2 - distance**2 * (1.0 - cosine**2), 0.0))
+    whole = np.where(root > 0.0, distance * cosine + root - np.maximum(distance * cosine - root, 0.0), 0.0)
+    inner = 1.0 - distance**2 * (1.0 - cosine**2)  # the black ball ends the ray
+    return np.where(inner > 0.0, distance * cosine - np.sqrt(np.maximum(inner, 0.0)) - np.maximum(distance * cosine - root, 0.0), whole)
+
+def light(way):
+    return 1.0 - np.exp(-way[..., None] * np.array([0.1, 0.2, 0.4]))
+
+def gathered(renderer):
+    return renderer.transfer.read()[0][0, ::-1]
+
 for distance in (20.0, 2.5):  # outside of it, and inside
     scene = presets.load(["kerr"], {**quiet, "media.haze.kind": "fog", "camera.distance": distance})
     renderer.render(scene, 0.0, (90, 60))
-    scale = math.tan(math.radians(30.0)) / 60
-    x, y = np.meshgrid((2 * (np.arange(90) + 0.5) - 90) * scale, (2 * (np.arange(60)[::-1] + 0.5) - 60) * scale)
-    cosine = 1.0 / np.sqrt(1.0 + x**2 + y**2)
-    root = np.sqrt(np.maximum(16.0 - distance**2 * (1.0 - cosine**2), 0.0))
-    chord = np.where(root > 0.0, distance * cosine + root - np.maximum(distance * cosine - root, 0.0), 0.0)
-    inner = 1.0 - distance**2 * (1.0 - cosine**2)  # the black ball ends the ray
-    chord = np.where(inner > 0.0, distance * cosine - np.sqrt(np.maximum(inner, 0.0)) - np.maximum(distance * cosine - root, 0.0), chord)
-    expected = 1.0 - np.exp(-chord[..., None] * np.array([0.1, 0.2, 0.4]))
-    off = np.abs(renderer.radiance() - expected)
-    assert np.quantile(off, 0.99) < 2e-3, (distance, np.quantile(off, 0.99))
+    expected = light(chord(distance, 4.0))
+    assert np.quantile(np.abs(renderer.radiance() - expected), 0.99) < 1e-3  # half floats
+    there = chord(distance, 4.0) > 0.3  # a grazing ray's chord is as uncertain as the root of where it runs
+    off = np.abs(gathered(renderer) - expected)[there]
+    assert off.max() < 1e-4, (distance, off.max())
 
 def mean(**values):
     renderer.render(presets.load(["kerr"], {**quiet, "camera.distance": 20.0, **values}), 0.0, (90, 60))
@@ -213,8 +227,9 @@ def mean(**values):
 alone = {"media.haze.kind": "fog"}
 inside = mean(**alone, **{"media.mist.kind": "fog", "media.mist.radius": 2.0})
 outside = mean(**{"media.haze.kind": "fog", "media.haze.radius": 2.0, "media.mist.kind": "fog"})
-assert np.max(np.abs(inside - outside)) < 5e-3  # whichever comes first: both have the whole of their ways
-assert np.mean(inside) > 1.05 * np.mean(mean(**alone))
+assert np.max(np.abs(inside - outside)) < 1e-3  # whichever is named first
+off = np.abs(inside - light(chord(20.0, 4.0) + chord(20.0, 2.0)))
+assert off.max() < 2e-3, off.max()  # one within the other: both have the whole of their ways
 ring = {"things.wall.kind": "annulus", "things.wall.inner_radius": 5.0, "things.wall.outer_radius": 30.0}
 before = mean(**ring, **{"camera.inclination_deg": 80.0})
 behind = mean(**ring, **alone, **{"camera.inclination_deg": 80.0})
@@ -223,7 +238,7 @@ assert np.mean(np.abs(behind - before) > 0.01) > 0.02  # a thing behind a medium
 
 
 def test_a_ball_of_fog_has_the_light_of_its_chords(tmp_path: Path) -> None:
-    """Uniform, in flat space: I = 1 − exp(−αc) along a chord c, each colour by itself; radiance is kept in half floats, good to 1e-3."""
+    """Uniform, in flat space: I = 1 − exp(−αc) along a chord c, each colour by itself; what is marched is good to 1e-4, radiance is in half floats."""
     file = tmp_path / "shaders" / "media" / "fog.glsl"
     file.parent.mkdir(parents=True)
     file.write_text(FOG, encoding="utf-8")
