@@ -1,4 +1,4 @@
-"""Draws the labels of `render.labels` over the window's picture."""
+"""Draws the labels of `render.labels` and the ticks of `render.polarized_disk` over the window's picture."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render import labels
+from ..render import labels, polarized_disk
 from ..render.annotation import pieces
 from ..render.views import Colour
 from ..scene import Scene
@@ -23,9 +23,18 @@ class LabelOverlay:
         self._shown = labels.Labels()
 
     def draw(self, state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
-        """Draws the labels over the picture, whose top left is `corner`; they follow those of the frame before."""
-        if not state.scene.post.labels or size[1] < 1.0:
+        """Draws labels and ticks over the picture, whose top left is `corner`; labels follow those of the frame before."""
+        if size[1] < 1.0:
             return
+        if state.scene.polarization.ticks and state.scene.post.view == "picture":
+            try:
+                _draw(polarized_disk.ticks(state.scene, size[0] / size[1]), corner, size)
+            except ValueError:  # as below
+                return
+        if state.scene.post.labels:
+            self._draw_labels(state, corner, size)
+
+    def _draw_labels(self, state: WindowState, corner: Corner, size: tuple[float, float]) -> None:
         aspect = size[0] / size[1]
         of = labels.shape_of(state.scene), aspect
         if of != self._of:
@@ -46,7 +55,7 @@ def _draw(shown: labels.Labels, corner: Corner, size: tuple[float, float]) -> No
 
     for curve in shown.curves:
         for piece in pieces(curve.places):
-            canvas.add_polyline([imgui.ImVec2(*at((x, y))) for x, y in piece.tolist()], _code(curve.colour, 0.9), 0.09 * em, 0)
+            canvas.add_polyline([imgui.ImVec2(*at((x, y))) for x, y in piece.tolist()], _code(curve.colour, 0.9), 0.09 * em * curve.width, 0)
     for name in shown.names:
         canvas.add_line(at(name.at), at(name.place), _code(name.colour, 0.9), 0.06 * em)
         _text(canvas, name.text, at(name.place), name.colour, 1.0 if name.is_on_the_left else 0.0, (corner[0], corner[0] + size[0]))

@@ -22,8 +22,8 @@ from .state import WindowState
 from .thumbnails import Thumbnails
 
 _TITLES = {
-    "hole": "Black hole", "source": "Real object", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "sky": "Sky", "post": "Image",
-    "playback": "Playback",
+    "hole": "Black hole", "source": "Real object", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "polarization": "Polarization",
+    "sky": "Sky", "post": "Image", "playback": "Playback",
 }  # fmt: skip
 _ART = ("Art", "What makes a picture and no physics names: as you like it.")
 _COST = "A flat frame, the unit of cost, is the same picture with light running straight."

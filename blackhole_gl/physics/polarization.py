@@ -188,9 +188,20 @@ def across(ahead: Float[Array, "*rays 3"], upwards: Float[Array, " 3"]) -> tuple
 
 def position_angle(observer: Observer, directions: Float[Array, "*rays 3"], vectors: Float[Array, "*rays 3"]) -> Float[Array, "*rays"]:
     """Angle (…) of polarization `vectors` (…, 3) as `arriving` gives them: from up on the picture counter-clockwise, −π/2 … π/2, as astronomers count it."""
-    seen, turned = directions @ observer.look, vectors @ observer.look
-    if observer.w == 0.0:
-        seen = np.broadcast_to(np.array([-1.0, 0.0, 0.0]), seen.shape)
-    right, above = across(seen / np.linalg.norm(seen, axis=-1, keepdims=True), np.array([0.0, -1.0, 0.0]))
-    aside, up = np.sum(turned * right, axis=-1), np.sum(turned * above, axis=-1)
+    right, above = _on_the_picture(observer, directions)
+    aside, up = np.sum(vectors * right, axis=-1), np.sum(vectors * above, axis=-1)
     return np.arctan(np.divide(-aside, up, out=np.full_like(up, np.inf), where=up != 0.0))
+
+
+def direction_of(observer: Observer, directions: Float[Array, "*rays 3"], angle: Float[Array, "*rays"]) -> Float[Array, "*rays 3"]:
+    """The unit vectors (…, 3) across `directions` that have position `angle` (…): the inverse of `position_angle`."""
+    right, above = _on_the_picture(observer, directions)
+    return np.cos(angle)[..., None] * above - np.sin(angle)[..., None] * right
+
+
+def _on_the_picture(observer: Observer, directions: Float[Array, "*rays 3"]) -> tuple[Float[Array, "*rays 3"], Float[Array, "*rays 3"]]:
+    """Right and up on the picture, across the light from `directions`."""
+    ahead = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    if observer.w == 0.0:
+        ahead = np.broadcast_to(np.array([-1.0, 0.0, 0.0]), directions.shape)
+    return across(ahead, -observer.look[:, 1])

@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ..scene import Scene
-from . import labels
+from . import labels, polarized_disk
 from .labels import Labels
 from .views import Colour, Scale, View, tick_text
 
@@ -19,16 +19,20 @@ _PIECES = 128
 
 
 def annotated(pixels: np.ndarray, scene: Scene, view: View | None) -> np.ndarray:
-    """`pixels`, (height, width, 3) uint8 with the top row first, with what `scene` asks for in ``post.labels`` and ``post.legend``.
+    """`pixels`, (height, width, 3) uint8 with the top row first, with what `scene` asks for in ``post.labels``, ``post.legend`` and
+    ``polarization.ticks``.
 
     Args:
         view: the diagnostic view that they show, with its scale; None for the picture.
     """
     height, width = pixels.shape[:2]
     legend = view if scene.post.legend else None
-    if not scene.post.labels and legend is None:
+    ticks = scene.polarization.ticks and view is None
+    if not (scene.post.labels or ticks) and legend is None:
         return pixels
     sheet = _Sheet(width, height)
+    if ticks:
+        sheet.labels(polarized_disk.ticks(scene, width / height))
     if scene.post.labels:
         sheet.labels(labels.of(scene, width / height))
     if legend is not None:
@@ -60,7 +64,7 @@ class _Sheet:
         scale = float(self._size[1])
         for curve in shown.curves:
             for piece in pieces(scale * curve.places):
-                self._line([(x, y) for x, y in piece.tolist()], curve.colour, 0.09)
+                self._line([(x, y) for x, y in piece.tolist()], curve.colour, 0.09 * curve.width)
         for name in shown.names:
             at, place = (scale * name.at[0], scale * name.at[1]), (scale * name.place[0], scale * name.place[1])
             self._line([at, place], name.colour, 0.06)

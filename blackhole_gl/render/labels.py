@@ -35,10 +35,11 @@ BLUE: Colour = (0.60, 0.68, 1.00)
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A thin line: places, float64 (N, 2), NaN where it is behind the camera."""
+    """A thin line: places, float64 (N, 2), NaN where it is behind the camera or breaks off; `width` is in those of an outline."""
 
     places: Float[np.ndarray, "N 2"]
     colour: Colour
+    width: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,7 @@ def _of(scene: Scene, aspect: float) -> Labels:
 
 def _made(scene: Scene, aspect: float, near: Outlines | None) -> Labels:
     plan = make_plan(scene)
-    why = _why_not(plan)
+    why = without_closed_forms(plan, "labels")
     return Labels(note=why) if why else _Maker(plan, observe(scene), aspect, near).labels()
 
 
@@ -131,17 +132,22 @@ def places(observer: Observer, scene: Scene, aspect: float, directions: Float[np
     """Where local `directions` (…, 3) of the observer's tetrad lie in the picture; NaN behind the camera."""
     seen = np.asarray(directions, float) @ observer.look
     ahead = np.where(-seen[..., 0] > _LEAST_AHEAD, -seen[..., 0], np.nan)
-    camera = scene.camera
-    half = 0.5 * camera.field_m if observer.w == 0.0 else math.tan(math.radians(0.5 * camera.fov_deg))
+    half = half_height(observer, scene)
     return np.stack([0.5 * aspect + 0.5 * seen[..., 2] / (half * ahead), 0.5 + 0.5 * seen[..., 1] / (half * ahead)], axis=-1)
 
 
-def _why_not(plan: Plan) -> str:
+def half_height(observer: Observer, scene: Scene) -> float:
+    """Half a picture's height on a screen at distance 1, or in M where the camera is infinitely far."""
+    return 0.5 * scene.camera.field_m if observer.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
+
+
+def without_closed_forms(plan: Plan, what: str) -> str:
+    """Why there are no closed forms for `what`; empty where there are."""
     hole = plan.scene.hole
     if plan.space_time.kind == "flat" or not plan.model.traits.exact:
-        return f"No labels: the ray model {plan.model.key} has no closed forms for them. Exact models of a hole do."
+        return f"No {what}: the ray model {plan.model.key} has no closed forms for it. Exact models of a hole do."
     if (hole.gravity_strength, hole.horizon_size) != (1.0, 1.0) and plan.model.traits.space_time == "schwarzschild":
-        return "No labels: hole.gravity_strength and hole.horizon_size are art, and closed forms are physics."
+        return f"No {what}: hole.gravity_strength and hole.horizon_size are art, and closed forms are physics."
     return ""
 
 

@@ -4,9 +4,9 @@ from .frozen import FrozenMap
 from .instances import Instance
 from .records import Scene, fields
 from .schema import Field, SceneError, Value, nearest_key
-from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky, Source
+from .sections import Camera, Disk, Hole, Playback, Polarization, Post, Rays, Sky, Source
 
 __all__ = [
-    "Camera", "Disk", "Field", "FrozenMap", "Hole", "Instance", "Playback", "Post", "Rays", "Scene", "SceneError", "Sky", "Source", "Value", "fields",
-    "nearest_key",
+    "Camera", "Disk", "Field", "FrozenMap", "Hole", "Instance", "Playback", "Polarization", "Post", "Rays", "Scene", "SceneError", "Sky", "Source", "Value",
+    "fields", "nearest_key",
 ]  # fmt: skip

@@ -18,7 +18,7 @@ from .frozen import FrozenMap
 from .instances import Instances, Place
 from .order import refuse_disorder
 from .schema import Field, SceneError, Value, nearest_key
-from .sections import Camera, Disk, Hole, Playback, Post, Rays, Sky, Source
+from .sections import Camera, Disk, Hole, Playback, Polarization, Post, Rays, Sky, Source
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,7 @@ class Scene:
     things: Instances = FrozenMap()
     media: Instances = FrozenMap()
     source: Source = Source()
+    polarization: Polarization = Polarization()
 
     def get(self, key: str) -> Value:
         """The value of `key`.

@@ -181,6 +181,21 @@ class Disk:
 
 
 @dataclass(frozen=True)
+class Polarization:
+    """How the light of the smooth disk is polarized, and whether that is shown. It changes nothing of the picture beneath."""
+
+    ticks: bool = switch(False, "Ticks along the polarization over the picture, saved ones too; as long as the fourth root of the polarized light.")
+    tick_rows: int = number(24, 4, 120, "", "Rows of ticks in a picture's height.")
+    emission: str = choice(
+        "synchrotron", ("synchrotron", "atmosphere"),
+        "Synchrotron light of electrons in a magnetic field, or light that a thick atmosphere of electrons has scattered (Chandrasekhar).",
+    )
+    field_vertical: float = number(1.0, -1.0, 1.0, "", "Part of the magnetic field along the axis, in the frame of the matter. Ratios alone matter.")
+    field_radial: float = number(0.0, -1.0, 1.0, "", "Part of the magnetic field outwards.")
+    field_toroidal: float = number(0.0, -1.0, 1.0, "", "Part of the magnetic field round the axis, counter-clockwise seen from +z.")
+
+
+@dataclass(frozen=True)
 class Sky:
     """What lies behind everything."""
 
@@ -246,7 +261,7 @@ class Playback:
 
 
 SECTIONS: Mapping[str, type] = MappingProxyType(
-    {"hole": Hole, "source": Source, "camera": Camera, "rays": Rays, "disk": Disk, "sky": Sky, "post": Post, "playback": Playback}
+    {"hole": Hole, "source": Source, "camera": Camera, "rays": Rays, "disk": Disk, "polarization": Polarization, "sky": Sky, "post": Post, "playback": Playback}
 )
 """The sections by name, in the order of panels and files."""
 

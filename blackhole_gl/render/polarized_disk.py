@@ -1,0 +1,166 @@
+"""Polarization of the disk's light: Stokes parameters where one looks, by closed forms (`physics.polarization`), and ticks over a picture. No GL here.
+
+The disk is taken to be smooth: what it emits is as bright as g^p T⁴, with the scene's temperature law and p, and its layers have no bearing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from ..physics import disk_profile, lensed_circles, polarization, scattering_atmosphere
+from ..physics.observer import Observer, observe
+from ..physics.polarization import MagneticField, PolarizedLight
+from ..plan import Plan
+from ..plan import plan as make_plan
+from ..scene import Scene, SceneError, met
+from ..shapes import Float
+from . import labels
+from .labels import Curve, Labels
+from .views import Colour
+
+SYNCHROTRON_DEGREE = 0.75
+"""Of light of electrons with a power law of 3 in a field that is straight: (p + 1)/(p + 7/3), which is as bright as sin² of its angle with the field."""
+
+TICKS: Colour = (0.35, 1.0, 0.95)
+_DARK: Colour = (0.02, 0.05, 0.08)
+_LEAST_SHARE = 1e-4  # of the brightest polarized light: ticks of less are left out
+_NUDGE = 1e-5  # of a direction: what is seen beside it tells how a tick lies on the picture
+_LENGTH = 0.85  # of the longest tick, in distances between them
+
+
+@dataclass(frozen=True)
+class Stokes:
+    """Light as astronomers write it down: arrays (…).
+
+    Attributes:
+        i: in units of a disk's hottest place that comes straight and unshifted, for light that is alike in all directions.
+        q, u: the polarized part, towards up on the picture and towards 45° counter-clockwise from there.
+    """
+
+    i: Float[np.ndarray, "*rays"]
+    q: Float[np.ndarray, "*rays"]
+    u: Float[np.ndarray, "*rays"]
+
+    @property
+    def polarized(self) -> Float[np.ndarray, "*rays"]:
+        """√(Q² + U²)."""
+        return np.hypot(self.q, self.u)
+
+    @property
+    def angle(self) -> Float[np.ndarray, "*rays"]:
+        """Position angle, from up counter-clockwise, −π/2 … π/2."""
+        return 0.5 * np.arctan2(self.u, self.q)
+
+
+def why_not(plan: Plan) -> str:
+    """Why the polarization of a picture is not known; empty where it is."""
+    if not plan.scene.disk.enabled:
+        return "No polarization: there is no disk."
+    if not met.is_empty(plan.scene):
+        return "No polarization: it is that of the disk alone, and the scene has things or media."
+    return labels.without_closed_forms(plan, "polarization")
+
+
+def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"]) -> Stokes:
+    """What comes from local `directions` (N, 3) of the observer's tetrad, of all orders that the plan keeps; where `why_not` is empty."""
+    total = np.zeros((3, len(directions)))
+    passes = np.ones(len(directions))
+    light = lensed_circles.light(observer, directions)
+    inner = max(plan.disk_inner, plan.space_time.isco_radius(plan.scene.disk.orbit))
+    for order in range(plan.orders):
+        r = lensed_circles.crossing_radius(light, np.array(order))
+        met_here = np.flatnonzero((r >= inner) & (r <= plan.disk_outer))
+        if len(met_here):
+            total[:, met_here] += passes[met_here] * _of_crossing(plan, observer, directions[met_here], r[met_here], order)
+            if plan.scene.disk.compositing == "opacity":
+                passes[met_here] *= 1.0 - plan.scene.disk.opacity
+    return Stokes(*total)
+
+
+def _of_crossing(plan: Plan, observer: Observer, directions: Float[np.ndarray, "K 3"], r: Float[np.ndarray, " K"], order: int) -> Float[np.ndarray, "3 K"]:
+    """I, Q, U of the light that leaves the disk at `r` (r_s)."""
+    scene, spin = plan.scene, observer.spin
+    disk, wanted = scene.disk, scene.polarization
+    light = lensed_circles.light(observer, directions)
+    momentum = lensed_circles.crossing_momentum(light, np.array(order), r)
+    is_synchrotron = wanted.emission == "synchrotron"
+    field = _field(scene) if is_synchrotron else MagneticField()
+    left = polarization.emitted(r, momentum, polarization.circular_velocity(r, spin, disk.orbit), field.local, spin)
+    temperature = disk_profile.temperature(disk.temperature_law, r, spin=spin, orbit=disk.orbit, r_in=plan.disk_inner, r_out=plan.disk_outer)
+    shift = left.g / light.energy
+    bright, degree = _emission(left, is_synchrotron)
+    i = temperature**4 * shift**disk.beaming_exponent * bright
+    vectors = polarization.arriving(observer, directions, left.constant)
+    angle = polarization.position_angle(observer, directions, vectors)
+    share = np.where(np.isfinite(angle), i * degree, 0.0)  # straight along the field, or the normal, there is none
+    angle = np.nan_to_num(angle)
+    return np.stack([i, share * np.cos(2.0 * angle), share * np.sin(2.0 * angle)])
+
+
+def _field(scene: Scene) -> MagneticField:
+    wanted = scene.polarization
+    if not (wanted.field_vertical or wanted.field_radial or wanted.field_toroidal):
+        raise SceneError("polarization.field_vertical", "got 0, and so are field_radial and field_toroidal; allowed is a field with a direction")
+    return MagneticField(wanted.field_vertical, wanted.field_radial, wanted.field_toroidal)
+
+
+def _emission(left: PolarizedLight, is_synchrotron: bool) -> tuple[Float[np.ndarray, "*rays"], Float[np.ndarray, "*rays"]]:
+    """How bright the light is by its direction, and the polarized share of it."""
+    if is_synchrotron:
+        return left.sine**2, np.full_like(left.sine, SYNCHROTRON_DEGREE)
+    return scattering_atmosphere.limb(left.rise), scattering_atmosphere.degree(left.rise)
+
+
+def directions_at(observer: Observer, scene: Scene, aspect: float, places: Float[np.ndarray, "N 2"]) -> Float[np.ndarray, "N 3"]:
+    """The local directions (N, 3) of the observer's tetrad that `places` (right, down) of a picture show, in its heights: the inverse of `labels.places`."""
+    half = labels.half_height(observer, scene)
+    right, down = half * (2.0 * places[:, 0] - aspect), half * (2.0 * places[:, 1] - 1.0)
+    return np.stack([-np.ones_like(right), down, right], axis=-1) @ observer.look.T
+
+
+def ticks(scene: Scene, aspect: float) -> Labels:
+    """Ticks along the polarization over a picture of `scene` whose width is `aspect` heights, as long as the fourth root of the polarized light; or a note
+    why there are none.
+
+    Raises:
+        SceneError, ValueError: the scene cannot be drawn; the text says why.
+    """
+    return _ticks(shape_of(scene), aspect)
+
+
+def shape_of(scene: Scene) -> Scene:
+    """`scene` with nothing but what ticks depend on."""
+    disk, bare = scene.disk, Scene()
+    kept = {
+        name: getattr(disk, name)
+        for name in ("enabled", "inner_radius", "outer_radius", "orbit", "temperature_law", "beaming_exponent", "compositing", "opacity")
+    }
+    camera = replace(scene.camera, azimuth_deg=0.0)
+    return replace(
+        bare, hole=scene.hole, camera=camera, rays=scene.rays, disk=replace(bare.disk, **kept), polarization=scene.polarization, things=scene.things,
+        media=scene.media,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=4)
+def _ticks(scene: Scene, aspect: float) -> Labels:
+    plan = make_plan(scene)
+    if why := why_not(plan):
+        return Labels(note=why)
+    observer, rows = observe(scene), scene.polarization.tick_rows
+    columns = max(round(rows * aspect), 1)
+    x, y = np.meshgrid((np.arange(columns) + 0.5) / columns * aspect, (np.arange(rows) + 0.5) / rows)
+    places = np.stack([x.ravel(), y.ravel()], axis=-1)
+    directions = directions_at(observer, scene, aspect, places)
+    found = stokes(plan, observer, directions)
+    light = found.polarized
+    shown = light > _LEAST_SHARE * light.max(initial=0.0)
+    half = 0.5 * _LENGTH / rows * (light[shown] / light.max(initial=1e-300)) ** 0.25
+    beside = directions[shown] + _NUDGE * polarization.direction_of(observer, directions[shown], found.angle[shown])
+    step = labels.places(observer, scene, aspect, beside) - places[shown]
+    step *= (half / np.linalg.norm(step, axis=-1))[:, None]
+    ends = np.stack([places[shown] - step, places[shown] + step, np.full_like(step, np.nan)], axis=1).reshape(-1, 2)
+    return Labels(curves=(Curve(ends, _DARK, 3.4), Curve(ends, TICKS, 1.7)))
