@@ -1,7 +1,9 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, plan, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, polarization, plan, bench, check and presets."""
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
 import sys
 from pathlib import Path
@@ -24,7 +26,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-_COMMANDS = ("view", "render", "trace", "profile", "plan", "bench", "check", "presets")
+_COMMANDS = ("view", "render", "trace", "profile", "polarization", "plan", "bench", "check", "presets")
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
 
@@ -204,6 +206,29 @@ def profile(
     for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
         print(f"{name:12} {100.0 * share:.3g} % of the light", file=sys.stderr)
     print(f"mean g       {found.mean:.4f}", file=sys.stderr)
+
+
+@app.command()
+def polarization(
+    out: Annotated[Path, typer.Option("--out", "-o", help="The NumPy archive to write: I, Q and U of each pixel, top row first. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "640x360",
+) -> None:
+    """Write how the light of the disk is polarized, pixel by pixel, and say how much of it is, along what, and beta_2."""
+    from .measure import polarization_maps
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = _scene(preset, set_, any_file)
+    refuse_unwritable(out, (".npz",), "a NumPy archive")
+    with Progress("polarization") as progress:
+        found = polarization_maps.measure(scene, _size(size), progress)
+    write_whole(out, found.as_npz())
+    share, angle = found.net
+    print(f"polarized    {100.0 * found.mean_share:.3g} % of the light, {100.0 * share:.3g} % of all together, along {angle:.2f}°", file=sys.stderr)
+    print(f"beta_2       {abs(found.beta_2):.4f}, phase {math.degrees(cmath.phase(found.beta_2)):.2f}°", file=sys.stderr)
 
 
 @app.command()

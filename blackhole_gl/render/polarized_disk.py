@@ -68,13 +68,15 @@ def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"])
     """What comes from local `directions` (N, 3) of the observer's tetrad, of all orders that the plan keeps; where `why_not` is empty."""
     total = np.zeros((3, len(directions)))
     passes = np.ones(len(directions))
-    light = lensed_circles.light(observer, directions)
+    still = np.arange(len(directions))  # rays that have neither fallen in nor escaped
     inner = max(plan.disk_inner, plan.space_time.isco_radius(plan.scene.disk.orbit))
     for order in range(plan.orders):
-        r = lensed_circles.crossing_radius(light, np.array(order))
-        met_here = np.flatnonzero((r >= inner) & (r <= plan.disk_outer))
+        r = lensed_circles.crossing_radius(lensed_circles.light(observer, directions[still]), np.array(order))
+        shines = (r >= inner) & (r <= plan.disk_outer)
+        met_here = still[shines]
+        still = still[(r > 0.0) & np.isfinite(r)]
         if len(met_here):
-            total[:, met_here] += passes[met_here] * _of_crossing(plan, observer, directions[met_here], r[met_here], order)
+            total[:, met_here] += passes[met_here] * _of_crossing(plan, observer, directions[met_here], r[shines], order)
             if plan.scene.disk.compositing == "opacity":
                 passes[met_here] *= 1.0 - plan.scene.disk.opacity
     return Stokes(*total)
@@ -89,7 +91,7 @@ def _of_crossing(plan: Plan, observer: Observer, directions: Float[np.ndarray, "
     is_synchrotron = wanted.emission == "synchrotron"
     field = _field(scene) if is_synchrotron else MagneticField()
     left = polarization.emitted(r, momentum, polarization.circular_velocity(r, spin, disk.orbit), field.local, spin)
-    temperature = disk_profile.temperature(disk.temperature_law, r, spin=spin, orbit=disk.orbit, r_in=plan.disk_inner, r_out=plan.disk_outer)
+    temperature = _temperature(r, disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer)
     shift = left.g / light.energy
     bright, degree = _emission(left, is_synchrotron)
     i = temperature**4 * shift**disk.beaming_exponent * bright
@@ -105,6 +107,16 @@ def _field(scene: Scene) -> MagneticField:
     if not (wanted.field_vertical or wanted.field_radial or wanted.field_toroidal):
         raise SceneError("polarization.field_vertical", "got 0, and so are field_radial and field_toroidal; allowed is a field with a direction")
     return MagneticField(wanted.field_vertical, wanted.field_radial, wanted.field_toroidal)
+
+
+def _temperature(r: Float[np.ndarray, " K"], law: str, spin: float, orbit: str, inner: float, outer: float) -> Float[np.ndarray, " K"]:
+    """T/T_peak at `r` (r_s) by the table that pictures of the disk use."""
+    table = _table(law, spin, orbit, inner, outer)
+    way = np.sqrt(np.clip((r - inner) / (outer - inner), 0.0, 1.0))
+    return np.interp(way, (np.arange(len(table)) + 0.5) / len(table), table)
+
+
+_table = lru_cache(maxsize=4)(disk_profile.table)
 
 
 def _emission(left: PolarizedLight, is_synchrotron: bool) -> tuple[Float[np.ndarray, "*rays"], Float[np.ndarray, "*rays"]]:

@@ -185,7 +185,7 @@ def arguments_of(line: str) -> list[str]:
     return cli._with_command(shlex.split(line)[1:])
 
 
-QUICK_COMMANDS = ("render", "trace", "profile", "plan", "presets", "--version")
+QUICK_COMMANDS = ("render", "trace", "polarization", "profile", "plan", "presets", "--version")
 LONG_COMMANDS = ("view", "bench", "check")
 RUN = [line for line in LINES if line not in ONLY_NAMED and "NAME" not in line]
 QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
