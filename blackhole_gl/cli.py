@@ -1,4 +1,4 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, polarization, plan, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, polarization, ring, plan, bench, check and presets."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-_COMMANDS = ("view", "render", "trace", "profile", "polarization", "plan", "bench", "check", "presets")
+_COMMANDS = ("view", "render", "trace", "profile", "polarization", "ring", "plan", "bench", "check", "presets")
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
 
@@ -229,6 +229,28 @@ def polarization(
     share, angle = found.net
     print(f"polarized    {100.0 * found.mean_share:.3g} % of the light, {100.0 * share:.3g} % of all together, along {angle:.2f}°", file=sys.stderr)
     print(f"beta_2       {abs(found.beta_2):.4f}, phase {math.degrees(cmath.phase(found.beta_2)):.2f}°", file=sys.stderr)
+
+
+@app.command()
+def ring(
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    size: Annotated[str, typer.Option(help="Width × height in pixels of the picture that is measured.")] = "600x600",
+    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
+    backend: Backend = "auto",
+) -> None:
+    """Measure the ring in a picture: diameter, width and asymmetry, of the light as it comes and through the scene's beam."""
+    from .measure import ring as ring_measure
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = _scene(preset, set_, any_file)
+    ring_measure.refuse(scene)
+    _refuse_unmet(scene, set_)
+    _tell_warnings(scene)
+    found = ring_measure.measure(_renderer(backend), scene, _time(time, preset), _size(size))
+    print(ring_measure.text(found, scene), end="")
 
 
 @app.command()

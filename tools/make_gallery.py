@@ -55,6 +55,8 @@ SHOTS = (
     Shot("m87_like", ("m87_like",)),
     Shot("gargantua_as_filmed", ("gargantua_as_filmed",)),
     Shot("luminet_1979", ("luminet_1979",)),
+    Shot("m87_eht", ("m87_eht",)),
+    Shot("sgr_a_eht", ("sgr_a_eht",)),
     Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
     Shot("labels", ("kerr",), {"post.labels": True}),
     Shot("objects_black_hole", ("objects_black_hole",)),

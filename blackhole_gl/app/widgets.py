@@ -17,7 +17,10 @@ Change = Callable[[Mapping[str, Value]], None]
 _SHOWN_DIGITS = 4
 _LOG_RATIO = 200.0  # a range that spans more than this is walked in equal ratios
 _FLAGS = imgui.SliderFlags_.always_clamp.value | imgui.SliderFlags_.no_round_to_format.value
-_LABELS = {"camera.fov_deg": "Field of view", "camera.field_m": "Picture height"}
+_LABELS = {
+    "camera.fov_deg": "Field of view", "camera.field_m": "Picture height", "source.mass_suns": "Mass", "source.distance_pc": "Distance",
+    "post.beam_uas": "Beam width",
+}  # fmt: skip
 _OPTIONS = {
     "s0": "orbital-plane renderer's", "s1": "BlackHoleGPU's", "page_thorne": "Page–Thorne", "shakura_sunyaev": "Shakura–Sunyaev", "zamo": "ZAMO",
     "aces": "ACES", "agx": "AgX",

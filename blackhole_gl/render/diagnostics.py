@@ -24,7 +24,10 @@ _COLOURS = 256
 _EXACT_FIELD = {"rays.integrator": "dopri5", "rays.step_control": "embedded", "rays.embedded.tolerance": 1e-6}
 
 # Post that leaves colours as they are.
-_AS_IT_IS = {"post.exposure": 0.0, "post.bloom": False, "post.lens": False, "post.tone_map": "linear", "post.gamma": 1.0, "post.dither": False}
+_AS_IT_IS = {
+    "post.exposure": 0.0, "post.bloom": False, "post.beam": False, "post.colours": "light", "post.lens": False, "post.tone_map": "linear", "post.gamma": 1.0,
+    "post.dither": False,
+}  # fmt: skip
 
 
 def is_on(scene: Scene) -> bool:

@@ -19,7 +19,7 @@ from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .metering import Exposure
 from .pixel_values import PixelValues
-from .post import PostPass
+from .post import PostPass, keeps_stars
 from .programs import Programs
 from .shading import ShadePass
 from .star_layer import StarLayer
@@ -130,7 +130,7 @@ class Renderer:
             ShaderError: a shader has a mistake.
         """
         stamps = [clock.perf_counter()]
-        shown = None if scene.post.lens else shown  # stars would not be displaced with the rest
+        shown = shown if keeps_stars(scene) else None
         inputs = self._last = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
         traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)

@@ -1,14 +1,17 @@
-"""Post: radiance → picture. Bloom as a chain of ever smaller levels, then exposure, tone map, gamma and dither."""
+"""Post: radiance → picture. A telescope's beam, bloom as a chain of ever smaller levels, then exposure, tone map, gamma and dither; or the colours of a map."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import moderngl
 
+from ..scene import Scene
+from .beam import BeamPass
+from .brightest import BrightestPass
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .levels import Level, draw_into, padded
+from .programs import Programs
 from .target import Target
 
 MOST_LEVELS = 6
@@ -32,16 +35,9 @@ def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
         yield size
 
 
-@dataclass(frozen=True)
-class _Level:
-    """One level of the bloom: its light lies in the lower left `size` pixels of the texture, which may be a little larger."""
-
-    target: Target
-    size: tuple[int, int]
-
-    @property
-    def texture(self) -> moderngl.Texture:
-        return self.target.texture
+def keeps_stars(scene: Scene) -> bool:
+    """Whether a star drawn over the finished picture of `scene` looks as if it had been in its radiance."""
+    return not (scene.post.lens or scene.post.beam) and scene.post.colours == "light"
 
 
 class PostPass:
@@ -54,10 +50,11 @@ class PostPass:
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._size: tuple[int, int] | None = None
-        self._down: list[_Level] = []
-        self._up: list[_Level] = []
+        self._down: list[Level] = []
+        self._up: list[Level] = []
         self._tone: Target | None = None
         self._tone_key: tuple | None = None
+        self._beam, self._brightest = BeamPass(ctx, programs), BrightestPass(ctx, programs)
         self.samplers: dict[str, moderngl.Texture] = {}
         self._lasting: FrameInputs | None = None  # the frame that the glow was made of, where the next one may have it too
 
@@ -75,12 +72,17 @@ class PostPass:
         Args:
             glow_may_last: whether the glow may be that of the last frame, if this one differs from it by little time alone; never that of one before.
         """
+        post = inputs.plan.scene.post
+        if post.beam:
+            radiance = self._beam.blurred(inputs, radiance)
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
         radiance.repeat_x = radiance.repeat_y = False
         self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
-        if inputs.plan.scene.post.bloom:
+        if post.colours == "afmhot":
+            self.samplers["brightest"] = self._brightest.of(inputs, radiance)
+        elif post.bloom:
             self.samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
-        if viewport[2:] == radiance.size and not inputs.plan.scene.post.lens:
+        if viewport[2:] == radiance.size and not post.lens:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
         tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
         tone_map.sample(self.samplers)
@@ -94,6 +96,8 @@ class PostPass:
     def release(self) -> None:
         """Gives the GL objects back."""
         self._release_levels()
+        self._beam.release()
+        self._brightest.release()
         if self._tone is not None:
             self._tone.release()
         self._tone, self._tone_key = None, None
@@ -130,14 +134,14 @@ class PostPass:
         for level in self._down:
             down.sample({"source": source})
             down.set(**_places("source", source, size, level.size), threshold=threshold, centre_weight=centre)
-            _draw_into(level, down)
+            draw_into(level, down)
             source, size, threshold, centre = level.texture, level.size, 0.0, 4.0
         up = self._programs.get("post/bloom_up.frag", inputs)
         share = post.bloom_spread / (0.4 + post.bloom_spread)
         for own, level in zip(reversed(self._down[:-1]), self._up):
             up.sample({"wider": source, "level": own.texture})
             up.set(**_places("wider", source, size, level.size), spread=share)
-            _draw_into(level, up)
+            draw_into(level, up)
             source, size = level.texture, level.size
         return source
 
@@ -146,30 +150,14 @@ class PostPass:
             return
         self._release_levels()
         first, *others = bloom_sizes(size)
-        self._down = [self._level(first, first), *(self._level(other, _padded(other)) for other in others)]
-        self._up = [self._level(level.size, level.texture.size) for level in reversed(self._down[:-1])]
+        self._down = [Level.of(self._ctx, first, first), *(Level.of(self._ctx, other, padded(other)) for other in others)]
+        self._up = [Level.of(self._ctx, level.size, level.texture.size) for level in reversed(self._down[:-1])]
         self._size = size
-
-    def _level(self, size: tuple[int, int], allocated: tuple[int, int]) -> _Level:
-        # Filled: what is never drawn is read all the same, by a linear filter with weight 0, which a NaN that the memory held would survive.
-        texture = self._ctx.texture(allocated, 4, bytes(8 * allocated[0] * allocated[1]), dtype="f2")
-        texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-        texture.repeat_x = texture.repeat_y = False
-        target = Target.of(self._ctx, [texture])
-        target.frame.viewport = 0, 0, *size
-        return _Level(target, size)
 
 
 def _lasts(before: FrameInputs, now: FrameInputs) -> bool:
     """Whether the glow of the frame `before` will do for `now`."""
     return abs(now.time - before.time) <= GLOW_LASTS and (before.size, before.plan) == (now.size, now.plan)
-
-
-def _padded(size: tuple[int, int]) -> tuple[int, int]:
-    """`size`, one pixel more where a side is a power of two: a shader is then compiled anew (docs/llvmpipe.md),
-    and a picture that changes its size meets them all. The first level, a quarter of the picture, is left to whoever chooses the picture's size."""
-    width, height = ({1: 3}.get(side, side + 1) if side & (side - 1) == 0 else side for side in size)
-    return width, height
 
 
 def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: tuple[int, int]) -> dict[str, tuple[float, float]]:
@@ -180,11 +168,6 @@ def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: 
         f"{name}_last": (u * (size[0] - 0.5), v * (size[1] - 0.5)),
         f"{name}_texel": (u, v),
     }
-
-
-def _draw_into(level: _Level, prepared: Draw) -> None:
-    level.target.frame.use()
-    prepared.draw()
 
 
 def _nearest(texture: moderngl.Texture) -> moderngl.Texture:

@@ -230,6 +230,17 @@ class Post:
     bloom_threshold: float = number(0.68, 0.0, 5.0, "", "Radiance above which light glows.")
     bloom_intensity: float = number(0.45, 0.0, 2.0, "", "Strength of the glow.")
     bloom_spread: float = number(1.0, 0.1, 3.0, "×", "Width of the glow.")
+    beam: bool = switch(
+        False,
+        "Blur the picture as an array of telescopes does: by a round Gaussian beam, before all else that makes light a picture. Its size on the sky goes by "
+        "the real object's mass and distance; beyond the picture's edge its outermost light is taken to go on.",
+    )
+    beam_uas: float = number(20.0, 0.1, 1000.0, "µas", "Full width of the beam at half of its maximum.")
+    colours: str = choice(
+        "light", ("light", "afmhot"),
+        "The light's own colours, or its luminance over that of the brightest pixel, in equal steps from black over red, orange and yellow to white: exposure, "
+        "glow, tone curve and gamma have no bearing then.",
+    )
     lens: bool = switch(
         False,
         "Displace the finished picture about the hole's place on it, as a thin lens does with what lies far behind: offset ×= 1 − 2 Rad/(ρ √D)², with ρ on a "

@@ -6,9 +6,12 @@
 #include "common/tone.glsl"
 #include "common/developed.glsl"
 #include "common/lensed_picture.glsl"
+#include "common/heat.glsl"
 
 uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not: docs/llvmpipe.md, texels
-#if POST_BLOOM
+#if POST_COLOURS_AFMHOT
+uniform sampler2D brightest; // one texel: the luminance of the brightest pixel
+#elif POST_BLOOM
 uniform sampler2D glow;
 #endif
 uniform vec2 target_origin; // lower left pixel of the picture in the target
@@ -32,13 +35,17 @@ void main() {
     place = lensed_place(place, hole);
 #endif
     vec3 light = textureLod(radiance, place, 0.0).rgb;
-#if POST_BLOOM
+#if POST_BLOOM && !POST_COLOURS_AFMHOT
     light += post_bloom_intensity * textureLod(glow, place, 0.0).rgb;
 #endif
 #if POST_LENS
     light *= lens_cover(hole);
 #endif
+#if POST_COLOURS_AFMHOT
+    vec3 code = heat(luminance(light) / max(texelFetch(brightest, ivec2(0), 0).r, 1e-12));
+#else
     vec3 code = developed(light);
+#endif
 #if POST_LENS && POST_LENS_RING
     code = mix(code, vec3(0.25, 0.9, 0.45), lens_ring(hole));
 #endif

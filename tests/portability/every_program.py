@@ -25,6 +25,7 @@ SHIPPED = [info for info in presets.available() if info.path.is_relative_to(pres
 TRACED = ("trace.frag", "refine_nodes.frag", "refine_cells.frag", "refine_classes.frag", "probe.frag")
 EDGES = ("edge_marks.frag", "edge_resolve.frag")
 POST = ("post/bloom_down.frag", "post/bloom_up.frag", "post/tone_table.frag", "post/tone_map.frag")
+BEAM = ("post/beam_halve.frag", "post/beam_blur.frag", "post/beam_enlarge.frag", "post/brightest.frag")
 
 
 class NoGL:
@@ -82,6 +83,7 @@ def _of_scenes() -> Iterator[Wanted]:
         made = plan(scene)
         yield from ((path, name, made, {}) for path in (*TRACED, *EDGES))
         yield from ((path, name, made, TONE_TABLE) for path in POST)
+        yield from ((path, name, made, {}) for path in BEAM)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
         in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined and path != "star_layer.frag")]
         yield from ((path, f"{name}, in blocks", made, {"RAYS_IN_BLOCKS": 1}) for path in in_blocks)
