@@ -59,6 +59,8 @@ SHOTS = (
     Shot("sgr_a_eht", ("sgr_a_eht",)),
     Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
     Shot("labels", ("kerr",), {"post.labels": True}),
+    Shot("field_round_the_axis", ("kerr", "smooth"), {"polarization.ticks": True, "polarization.field_vertical": 0.0, "polarization.field_toroidal": 1.0}),
+    Shot("field_along_the_axis", ("kerr_06", "smooth"), {"polarization.ticks": True, "camera.inclination_deg": 25.0, "camera.fov_deg": 64.0}),
     Shot("objects_black_hole", ("objects_black_hole",)),
     Shot("objects_refraction", ("objects_refraction",)),
     Shot("mirage", ("mirage",)),

@@ -60,7 +60,8 @@ def _draw(shown: labels.Labels, corner: Corner, size: tuple[float, float]) -> No
         canvas.add_line(at(name.at), at(name.place), _code(name.colour, 0.9), 0.06 * em)
         _text(canvas, name.text, at(name.place), name.colour, 1.0 if name.is_on_the_left else 0.0, (corner[0], corner[0] + size[0]))
     if shown.note:
-        _text(canvas, shown.note, (corner[0] + 0.5 * size[0], corner[1] + 2.0 * em), labels.WHITE, 0.5, (corner[0], corner[0] + size[0]))
+        place = corner[0] + 0.5 * size[0], corner[1] + (2.0 + 1.8 * shown.note_line) * em
+        _text(canvas, shown.note, place, labels.WHITE, 0.5, (corner[0], corner[0] + size[0]))
     canvas.pop_clip_rect()
 
 

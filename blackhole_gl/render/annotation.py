@@ -70,7 +70,7 @@ class _Sheet:
             self._line([at, place], name.colour, 0.06)
             self._boxed(name.text, place, name.colour, "rm" if name.is_on_the_left else "lm")
         if shown.note:
-            self._boxed(shown.note, (0.5 * self._size[0], 1.5 * self._em), _TEXT, "mm")
+            self._boxed(shown.note, (0.5 * self._size[0], (1.5 + 1.8 * shown.note_line) * self._em), _TEXT, "mm")
 
     def legend(self, view: View) -> None:
         """At the bottom right; nothing in pictures that have no room for it."""

@@ -83,12 +83,14 @@ class Labels:
 
     Attributes:
         note: why there is nothing, where there is nothing.
+        note_line: which of the lines at the top it stands in, from 0.
         outlines: what the curves were made from, where there are any.
     """
 
     curves: tuple[Curve, ...] = ()
     names: tuple[Name, ...] = ()
     note: str = ""
+    note_line: int = 0
     outlines: Outlines | None = None
 
 
@@ -145,7 +147,7 @@ def without_closed_forms(plan: Plan, what: str) -> str:
     """Why there are no closed forms for `what`; empty where there are."""
     hole = plan.scene.hole
     if plan.space_time.kind == "flat" or not plan.model.traits.exact:
-        return f"No {what}: the ray model {plan.model.key} has no closed forms for it. Exact models of a hole do."
+        return f"No {what}: the ray model {plan.model.key} has no closed forms; the exact models of a hole have."
     if (hole.gravity_strength, hole.horizon_size) != (1.0, 1.0) and plan.model.traits.space_time == "schwarzschild":
         return f"No {what}: hole.gravity_strength and hole.horizon_size are art, and closed forms are physics."
     return ""

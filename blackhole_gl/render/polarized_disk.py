@@ -161,7 +161,7 @@ def shape_of(scene: Scene) -> Scene:
 def _ticks(scene: Scene, aspect: float) -> Labels:
     plan = make_plan(scene)
     if why := why_not(plan):
-        return Labels(note=why)
+        return Labels(note=why, note_line=1)  # below that of labels
     observer, rows = observe(scene), scene.polarization.tick_rows
     columns = max(round(rows * aspect), 1)
     x, y = np.meshgrid((np.arange(columns) + 0.5) / columns * aspect, (np.arange(rows) + 0.5) / rows)

@@ -24,7 +24,7 @@ from blackhole_gl.app import compass, mouse_values, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render import labels
+from blackhole_gl.render import labels, polarized_disk
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -490,6 +490,25 @@ def values_under_the_mouse(hands: Hands) -> None:
     hands.press(Key.i)
     hands.context.yield_(4)
     assert not is_shown() and not hands.state.show_values
+
+
+def ticks_of_polarization(hands: Hands) -> None:
+    """They lie over the picture and over no view, are those of the scene that is shown, and are worked out once while it rests."""
+    asked, ticks = [], polarized_disk.ticks
+    polarized_disk.ticks = lambda scene, aspect: asked.append((scene, ticks(scene, aspect))) or asked[-1][1]
+    try:
+        hands.context.yield_(3)
+        assert not asked
+        hands.state.change({"polarization.ticks": True, "polarization.field_toroidal": 1.0})
+        hands.context.yield_(4)
+        assert asked[-1][0] is hands.scene and asked[-1][1].curves and asked[-1][1] is asked[-2][1]
+        hands.state.change({"post.view": "steps"})
+        hands.context.yield_(2)
+        asked.clear()
+        hands.context.yield_(3)
+        assert not asked
+    finally:
+        polarized_disk.ticks = ticks
 
 
 def labels_by_key(hands: Hands) -> None:
