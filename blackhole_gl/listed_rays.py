@@ -17,6 +17,7 @@ from .glsl.declared import Fate
 from .output.files import write_whole
 from .physics import observer
 from .physics.space_time import ray_model, space_time
+from .plan import plan
 from .render.frame import Renderer
 from .scene import Scene, met
 from .shapes import Float, Int
@@ -66,7 +67,7 @@ class TracedRays:
         direction: (N, 3) asymptotic unit vectors in the world; NaN unless escaped.
         steps, evaluations: int (N,); of refined pictures float, the mean of all their pixels.
         crossing_r, crossing_phi, crossing_g: (N, 3); r in r_s, φ in radians (any branch), g = E_infinity/E_emitter of a circular
-            emitter; NaN where there is none, and g also inside the ISCO.
+            emitter, inside the ISCO of matter that falls in where there is some; NaN where there is none, and without it g also inside the ISCO.
         lambda_: (N,) L_z/E in M of the photon that arrives; NaN where the shader keeps no crossings, and with them no λ.
         crossing_theta: (N, 3) polar angle in radians.
         crossing_k_r, crossing_k_theta: (N, 3) the covariant momentum of the photon that arrives, in Boyer–Lindquist coordinates and units
@@ -147,7 +148,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
     r = np.hypot(hits.crossing[..., 0].astype(float), hits.crossing[..., 1])
     phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
     none = r == 0.0
-    isco = ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
+    innermost = 0.0 if ray_plan.scene.disk.plunging else ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
     momentum = hits.momenta.astype(float)
     return TracedRays(
         hits.fate,
@@ -156,7 +157,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
         hits.steps * ray_plan.evaluations_per_step,
         np.where(none, np.nan, r),
         np.where(none, np.nan, phi),
-        np.where(none | (r < isco), np.nan, shifts.astype(float)),
+        np.where(none | (r < innermost), np.nan, shifts.astype(float)),
         np.where(scene.rays.orders > 0, hits.lambda_.astype(float), np.nan),
         np.where(none, np.nan, 0.5 * np.pi),
         momentum[..., 0],
@@ -187,6 +188,7 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
         observer=camera.observer,
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
+        falls=plan(scene, keep_crossings=True).scene.disk.plunging,
         directions=None if far else local_vectors(rays, scene),
         screen=rays if far else None,
         **parameters,

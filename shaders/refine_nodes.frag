@@ -90,7 +90,7 @@ uint senses_of_crossings(int n, vec2 point[5], vec4 star[5]) {
 
 // The points' bounding box counts, and not the points: seen from near its plane the disk is thinner than a cell, and no ray may meet it.
 uint kinds_of_crossings(vec2 point[5]) {
-    vec2 margin = vec2(disk_r_in / beyond_disk, disk_r_out * beyond_disk);
+    vec2 margin = vec2(disk_r_edge / beyond_disk, disk_r_out * beyond_disk);
     float far_side = camera_w > 0.0 ? 0.5 / camera_w + margin.y : 0.0;
     vec2 low = vec2(1e30), high = vec2(-1e30);
     uint kinds = 0u;
@@ -98,7 +98,7 @@ uint kinds_of_crossings(vec2 point[5]) {
         float r2 = dot(point[i], point[i]);
         bool outside = r2 > margin.x * margin.x;
         vec3 seen = vec3(point[i], 0.0) - (0.5 / max(camera_w, 1e-20)) * camera_n.xyz;
-        uint found = NODE_CROSSES | (outside ? NODE_ABOVE_INNER_MARGIN : 0u) | (r2 >= disk_r_in * disk_r_in ? NODE_ABOVE_INNER_EDGE : 0u);
+        uint found = NODE_CROSSES | (outside ? NODE_ABOVE_INNER_MARGIN : 0u) | (r2 >= disk_r_edge * disk_r_edge ? NODE_ABOVE_INNER_EDGE : 0u);
         found |= outside && dot(seen, seen) < far_side * far_side ? NODE_BEFORE_DISK : 0u;
         kinds |= r2 > 0.0 ? found : NODE_MISSES;
         low = r2 > 0.0 ? min(low, point[i]) : low;

@@ -42,9 +42,9 @@ const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives th
 
 // Radiance of the smooth disk. Gravity's part of g acts on colour and brightness, unless "redshift" is off; the Doppler part
 // on each by its own switch (common/disk_orbit.glsl says how g is split). The observer's own shift counts as gravity's.
-vec3 disk_radiance(float r, float lambda, float energy) {
-    vec2 shift = disk_shift(r, lambda);
-    vec2 colour_shift = disk_colour_shift(shift, energy);
+vec3 disk_radiance(float r, DiskLight light, bool inbound) {
+    vec2 shift = disk_shift(r, light, inbound);
+    vec2 colour_shift = disk_colour_shift(shift, light.energy);
     float power_shift = DISK_BEAMING == 1 ? shift.y : 1.0;
     float temperature = disk_temperature(r);
     float power = temperature * temperature;
@@ -69,25 +69,25 @@ vec2 disk_appearance(float density) {
 }
 
 // The light gathered so far and what still comes through, after one more crossing.
-Light pass_disk(Light light, Crossing crossing, float lambda, float energy) {
+Light pass_disk(Light light, Crossing crossing, DiskLight sent, bool inbound) {
     float r = max(length(crossing.point), 1e-6);
     vec2 heading = crossing.point / r;
     vec2 across = vec2(-heading.y, heading.x);
     vec2 radial = vec2(dot(crossing.right, heading), dot(crossing.up, heading));
     vec2 around = vec2(dot(crossing.right, across), dot(crossing.up, across));
-    float emitted_at = clamp(r, disk_r_in, disk_r_out);
+    float emitted_at = clamp(r, disk_r_edge, disk_r_out);
     vec2 footprint = vec2(length(radial), length(around)) * (block_side / r);
-    DiskMatter matter = DiskMatter(r, heading, footprint, disk_approach(emitted_at, lambda), disk_shift(emitted_at, lambda).y, 1.0, 1.0);
+    DiskMatter matter = DiskMatter(r, heading, footprint, disk_approach(emitted_at, sent.lambda), disk_shift(emitted_at, sent, inbound).y, 1.0, 1.0);
 #each disk_layer : matter = disk_layer_$key(matter);
 
     vec2 look = disk_appearance(matter.density) * disk_cover(crossing);
-    vec3 emission = disk_radiance(emitted_at, lambda, energy) * matter.gain;
+    vec3 emission = disk_radiance(emitted_at, sent, inbound) * matter.gain;
     return Light(light.gathered + light.passed * look.x * emission, light.passed * (1.0 - look.y));
 }
 
 // The same, in the colour of the crossing's order if orders are tinted.
-Light pass_order(Light light, Hits hits, Crossing crossing, float energy) {
-    Light after = pass_disk(light, crossing, hits.lambda, energy);
+Light pass_order(Light light, Hits hits, Crossing crossing, int n, DiskLight sent) {
+    Light after = pass_disk(light, crossing, sent, is_inbound(hits, n));
 #if DISK_ORDERS_SHOWN_TINTED
     const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);
     after.gathered = light.gathered + dot(after.gathered - light.gathered, WEIGHTS) * order_tint(hits, crossing.point);
@@ -138,7 +138,7 @@ Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int 
 
 void main() {
     Hits hits = shown_orders(fetch_hits(ivec2(gl_FragCoord.xy)));
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
+    DiskLight sent = disk_light(hits.lambda, pixel_direction(picture_place(gl_FragCoord.xy)));
 
     // The crossings that may count come first, in order. Without things at least one does in every pixel that gets here.
     Crossing first = crossing_of(hits.crossing[0], hits.fate), second = crossing_of(hits.crossing[1], hits.fate);
@@ -151,7 +151,7 @@ void main() {
     Light light = Light(vec3(0.0), vec3(1.0));
 #if MEETINGS
     Light own[MEETINGS];
-    for (int k = 0; k < MEETINGS; ++k) own[k] = meeting_light(hits, k, sight_of(hits.meeting[k], energy));
+    for (int k = 0; k < MEETINGS; ++k) own[k] = meeting_light(hits, k, sight_of(hits.meeting[k], sent.energy));
     int gone = 0;  // crossings
 #endif
 #if MEETINGS == 0 || ORDERS > 0
@@ -161,11 +161,11 @@ void main() {
         int upto = counts ? order.x : -1;
         light = pass_meetings(light, hits, own, gone, upto);
         gone = max(gone, upto + 1);
-        Light after = pass_order(light, hits, first, energy);
+        Light after = pass_order(light, hits, first, order.x, sent);
         if (counts) light = after;
         counts = more;
 #else
-        light = pass_order(light, hits, first, energy);
+        light = pass_order(light, hits, first, order.x, sent);
 #endif
         left = more;
         first = second;

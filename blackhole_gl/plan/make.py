@@ -10,7 +10,7 @@ from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue, instances, met
 from ..scene.catalogue import PlugIn
 from . import choice
-from .record import MERIDIAN, WORLD, Plan
+from .record import INNERMOST_MATTER, MERIDIAN, WORLD, Plan
 
 # A ray that comes near the critical curve winds round the hole; one pixel in a 4K picture lies closer than 1e-7 to it only by
 # rare chance, and 3 turns reach that: each turn takes a factor e^{2π} of distance.
@@ -65,6 +65,8 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     refine, why_refine = _refines(scene, model, chosen, reach_steps)
     reasons.append(why_refine)
     reasons += _what_lens(scene)
+    scene, why_still = _plunging(scene, where)
+    reasons += why_still
     inner, outer = _disk_radii(scene, where)
     return Plan(
         scene=scene,
@@ -79,6 +81,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         orders=orders,
         disk_inner=inner,
         disk_outer=outer,
+        disk_edge=INNERMOST_MATTER * where.horizon_radius if scene.disk.plunging else inner,
         meetings=_meetings(scene),
         reach=reach,
         reach_steps=reach_steps,
@@ -290,6 +293,25 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn, turns: float = S
     # 1.0 for what an artistic horizon lets run on inside r = G
     legs = math.log(max(min(far, bound) / photon_sphere, 1.0)) + math.log(2.0 * bound / photon_sphere) + 1.0
     return 3.0 * (legs + turns * turn / photon_sphere) / (scene.rays.step_length * shortest)
+
+
+def _plunging(scene: Scene, where: SpaceTime) -> tuple[Scene, list[str]]:
+    """`scene` with no matter that falls in where there can be none, and why."""
+    why = _why_none_falls(scene, where) if scene.disk.plunging else ""
+    if why:
+        return scene.with_values({"disk.plunging": False}), [f"no matter inside the innermost stable orbit: {why}"]
+    return scene, []
+
+
+def _why_none_falls(scene: Scene, where: SpaceTime) -> str:
+    """Why there can be no matter inside the innermost stable orbit of `scene`; empty where there can."""
+    if not where.has_hole or not ray_model(scene).traits.exact or scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
+        return "the rays are not those of a hole's own space-time"
+    if scene.disk.frequency_shift != "exact":
+        return "the older viewers' formulas for g know none"
+    if scene.disk.inner_radius > where.isco_radius(scene.disk.orbit):
+        return "the disk is cut off outside of it"
+    return ""
 
 
 def _disk_radii(scene: Scene, where: SpaceTime) -> tuple[float, float]:

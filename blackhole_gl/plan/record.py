@@ -23,6 +23,9 @@ GRID_MARGIN = 2
 INNERMOST_CROSSING = 1.02
 """The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge."""
 
+INNERMOST_MATTER = 1.03
+"""Where falling matter ends, in horizon radii: just outside the innermost crossing, so that its edge is seen."""
+
 Frame = Literal["meridian", "world"]
 MERIDIAN: Frame = "meridian"
 WORLD: Frame = "world"
@@ -41,7 +44,8 @@ class Plan:
         max_steps: no ray takes more.
         march_bound: radius in r_s beyond which outward rays are finished in closed form.
         orders: crossings of the disk's plane that are kept, 0 without a disk.
-        disk_inner, disk_outer: the disk's edges in r_s, as used.
+        disk_inner, disk_outer: the edges of the disk's circular orbits in r_s, as used.
+        disk_edge: how far in there is matter, in r_s: `disk_inner`, or the innermost crossing of the plane that can be told where matter falls in.
         meetings: how many of the scene's things and media are kept of each ray, 0 where there are none.
         reach: radius in r_s beyond which there is none of them.
         reach_steps: steps in which coarse rays tell where in a picture the things and media can be seen; 0: that is not known, and they may be anywhere.
@@ -64,6 +68,7 @@ class Plan:
     orders: int
     disk_inner: float
     disk_outer: float
+    disk_edge: float
     meetings: int
     reach: float
     reach_steps: int

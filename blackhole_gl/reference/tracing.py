@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..physics import relativity
+from ..physics import plunging, relativity
 from ..shapes import Float
 from .hits import EQUATOR, Crossings, ReferenceHits, angles, joined
 from .integrator import EVALUATIONS_PER_STEP
@@ -26,7 +26,8 @@ Array = np.ndarray
 
 def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
           observer: str = "static", directions: ArrayLike | None = None, screen: ArrayLike | None = None, planes: Sequence[Sequence[float]] = (),
-          balls: Sequence[Sequence[float]] = (), orders: int = 3, orbit: str = "prograde", tolerance: float = 1e-12, **parameters: Any) -> ReferenceHits:
+          balls: Sequence[Sequence[float]] = (), orders: int = 3, orbit: str = "prograde", falls: bool = False, tolerance: float = 1e-12,
+          **parameters: Any) -> ReferenceHits:
     """Traces rays backwards from the camera.
 
     Args:
@@ -42,6 +43,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         balls: (x, y, z, radius) in r_s of spheres whose crossings are asked for, the last events of the hits. They are never jumped, which takes
             more time still.
         orders: number of crossings kept of each plane and ball. orbit: "prograde" or "retrograde" emitters in the equatorial one.
+        falls: whether there is matter inside the innermost stable orbit, too, that falls in from it.
         tolerance: error allowed per step of the integrator; below 1e-13 rounding leaves nothing to gain.
         parameters: those that the model's twin declares, such as gravity_strength, by name.
 
@@ -61,7 +63,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     theta, azimuth = angles(traced.direction, traced.fate)
     return ReferenceHits(
         fate=traced.fate, direction=traced.direction, theta=theta, phi=azimuth, steps=traced.steps, evaluations=traced.steps * EVALUATIONS_PER_STEP,
-        crossings=crossings, g=_emitter_ratio(crossings.of(EQUATOR), traced.energy, traced.l_z, view.spin, orbit), lambda_=traced.l_z / traced.energy,
+        crossings=crossings, g=_emitter_ratio(crossings.of(EQUATOR), traced.energy, traced.l_z, view.spin, orbit, falls), lambda_=traced.l_z / traced.energy,
         energy_sign=np.sign(traced.energy), observer=view.observer)
 
 
@@ -101,10 +103,11 @@ def _normals(planes: Sequence[Sequence[float]]) -> Float[Array, "P 3"]:
     return normals / size
 
 
-def _emitter_ratio(met: Crossings, energy: Array, l_z: Array, spin: float, orbit: str) -> Array:
-    """E/(u^t (E - Omega L_z)), NaN inside the ISCO; E is kept apart because a ZAMO in the ergosphere sees E <= 0 too."""
+def _emitter_ratio(met: Crossings, energy: Array, l_z: Array, spin: float, orbit: str, falls: bool) -> Array:
+    """E/(u^t (E - Omega L_z)), inside the ISCO that of matter that falls, or NaN; E is kept apart because a ZAMO in the ergosphere sees E <= 0 too."""
     outside = met.r >= relativity.isco_radius(spin, orbit)
     safe = np.where(outside, met.r, 100.0)
     rate = 0.5 * relativity.orbital_frequency(safe, spin, orbit)
     energy, l_z = energy[:, None], l_z[:, None]
-    return np.where(outside, energy / (relativity.orbital_u_t(safe, spin, orbit) * (energy - rate * l_z)), np.nan)
+    inside = plunging.emission_shift(met.r, l_z / energy, met.k_r, spin, orbit, np.sign(energy)) if falls else np.nan
+    return np.where(outside, energy / (relativity.orbital_u_t(safe, spin, orbit) * (energy - rate * l_z)), inside)

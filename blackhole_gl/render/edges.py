@@ -68,7 +68,7 @@ class EdgeRays:
         moving = moving or not hit_map.is_sharp
         side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=moving)
         plan = inputs.plan
-        key = (hit_map.generation, side, moving, inputs.size, plan.orders, plan.disk_inner, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
+        key = (hit_map.generation, side, moving, inputs.size, plan.orders, plan.disk_edge, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
             changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
             self._trace(inputs, hit_map, side, changed, moving=moving)

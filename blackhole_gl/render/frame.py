@@ -253,7 +253,7 @@ class Renderer:
         plan = make_plan(scene.with_values(_AT_THE_HOLE), keep_crossings=True)
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         hits = self.hit_map.trace_listed(plan, directions)
-        shifts = self.hit_map.emission_shifts().reshape(-1, 3)[: len(directions)]
+        shifts = self.hit_map.emission_shifts(directions)
         return hits, shifts, plan
 
     def read_rgb8(self) -> np.ndarray:

@@ -245,14 +245,8 @@ class HitMap:
 
     def trace_listed(self, plan: Plan, directions: np.ndarray) -> HitArrays:
         """Hits of listed local directions (N, 3), in the observer's tetrad wherever the camera looks, instead of pixels."""
-        number = len(directions)
-        # Whole blocks of 4 × 4: software renderers run those whole, and a texel that is not there would be a ray without a direction.
-        width = min(-(-number // 4) * 4, 1024)
-        height = -(-number // (4 * width)) * 4
-        listed = np.zeros((height * width, 4), np.float32)
-        listed[:, 0] = -1.0
-        listed[:number, :3] = directions
-        texture = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
+        texture = self._listed(directions)
+        width, height = texture.size
         self._last = FrameInputs.whole(plan, 0.0, (width, height))
         rays = self._programs.get("trace.frag", self._last, {"RAYS_LISTED": 1})
         rays.set(listed_rays=0)
@@ -270,19 +264,30 @@ class HitMap:
         target.release()
         for kept in (texture, *momenta):
             kept.release()
-        return found.each(lambda values: values.reshape(-1, *values.shape[2:])[:number])
+        return found.each(lambda values: values.reshape(-1, *values.shape[2:])[: len(directions)])
 
-    def emission_shifts(self) -> np.ndarray:
-        """Exact g of the kept crossings, float32 (height, width, 3), 0 where there is none."""
-        width, height = self.textures[0].size
+    def _listed(self, directions: np.ndarray) -> moderngl.Texture:
+        number = len(directions)
+        # Whole blocks of 4 × 4: software renderers run those whole, and a texel that is not there would be a ray without a direction.
+        width = min(-(-number // 4) * 4, 1024)
+        height = -(-number // (4 * width)) * 4
+        listed = np.zeros((height * width, 4), np.float32)
+        listed[:, 0] = -1.0
+        listed[:number, :3] = directions
+        return self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
+
+    def emission_shifts(self, directions: np.ndarray) -> np.ndarray:
+        """Exact g of the kept crossings of the listed `directions` (N, 3) that were traced last, float32 (N, 3), 0 where there is none."""
+        listed = self._listed(directions)
         probe = self._programs.get("probe.frag", self._traced)
-        probe.sample(self.samplers())
-        target = Target.of(self._ctx, [self._ctx.texture((width, height), 4, dtype="f4")])
+        probe.sample({**self.samplers(), "listed_rays": listed})
+        target = Target.of(self._ctx, [self._ctx.texture(listed.size, 4, dtype="f4")])
         target.frame.use()
         probe.draw()
         values = _texels(target.texture)[..., :3]
         target.release()
-        return values
+        listed.release()
+        return values.reshape(-1, 3)[: len(directions)]
 
     def read(self) -> HitArrays:
         """The map as arrays of shape (height, width, …), as its readers see it."""
@@ -381,4 +386,4 @@ def _key_of(inputs: FrameInputs, rays: Draw) -> tuple:
 
 def _refined_for(inputs: FrameInputs) -> tuple:
     """What a refined map depends on beside its key: how well it interpolates, and where the disk's edges are."""
-    return refinement.tolerances(inputs), inputs.plan.disk_inner, inputs.plan.disk_outer
+    return refinement.tolerances(inputs), inputs.plan.disk_edge, inputs.plan.disk_outer

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import disk_profile, lensed_circles, relativity
+from ..physics import disk_profile, lensed_circles, plunging, relativity
 from ..physics.observer import observe
 from ..plan import Plan
 from . import instances
@@ -80,22 +80,32 @@ def of(inputs: FrameInputs, hits: HitArrays, pixel: tuple[int, int]) -> PixelVal
         eta=eta,
         impact=math.sqrt(max(eta + lam * lam, 0.0)) if plan.space_time.observer_spin == 0.0 else math.nan,
         screen=(float(local[2]), float(-local[1])) if observer.w == 0.0 else None,
-        disk=_on_disk(plan, hits, lam, 1.0 / float(light.energy)),
+        disk=_on_disk(plan, hits, light),
         sky=(math.atan2(math.hypot(n[0], n[1]), n[2]), math.atan2(n[1], n[0])) if fate == Fate.ESCAPED else None,
         met=_met(plan, hits),
     )
 
 
-def _on_disk(plan: Plan, hits: HitArrays, lam: float, energy: float) -> OnDisk | None:
+def _on_disk(plan: Plan, hits: HitArrays, light: lensed_circles.Light) -> OnDisk | None:
     radii = np.hypot(*hits.crossing.astype(float).T)
-    on = np.flatnonzero((radii >= plan.disk_inner) & (radii <= plan.disk_outer))[: plan.orders]
+    on = np.flatnonzero((radii >= plan.disk_edge) & (radii <= plan.disk_outer))[: plan.orders]
     if not on.size:
         return None
     order = int(on[0])
-    radius, disk = float(radii[order]), plan.scene.disk
-    gravity, motion = frequency_shift(plan, radius, lam)
+    radius, disk, energy = float(radii[order]), plan.scene.disk, 1.0 / float(light.energy)
+    if radius < plan.disk_inner:
+        gravity, motion = _falling_shift(plan, radius, light, order)
+    else:
+        gravity, motion = frequency_shift(plan, radius, math.nan if light.is_bound else float(light.lam))
     (profile,) = disk_profile.temperature(
-        disk.temperature_law, np.array([radius]), spin=plan.space_time.spin, orbit=disk.orbit, r_in=plan.disk_inner, r_out=plan.disk_outer
+        disk.temperature_law,
+        np.array([radius]),
+        spin=plan.space_time.spin,
+        orbit=disk.orbit,
+        r_in=plan.disk_inner,
+        r_out=plan.disk_outer,
+        torque=disk.inner_torque,
+        edge=plan.disk_edge,
     )
     seen = disk.temperature_k * float(profile) * (gravity * energy if disk.redshift else 1.0) * (motion if disk.doppler_colour else 1.0)
     azimuth = math.atan2(float(hits.crossing[order, 1]), float(hits.crossing[order, 0]))
@@ -113,6 +123,14 @@ def frequency_shift(plan: Plan, radius: float, lam: float) -> tuple[float, float
         return 1.0, float(relativity.g_s1(radius, along))
     gravity = 1.0 / float(relativity.orbital_u_t(radius, spin, disk.orbit))
     return gravity, float(relativity.circular_orbit_g(radius, lam, spin, disk.orbit)) / gravity
+
+
+def _falling_shift(plan: Plan, radius: float, light: lensed_circles.Light, order: int) -> tuple[float, float]:
+    """The two factors of `frequency_shift` of matter that falls in."""
+    spin, orbit = plan.space_time.spin, plan.scene.disk.orbit
+    gravity = 1.0 / float(plunging.four_velocity(radius, spin, orbit).time)
+    k_r = lensed_circles.crossing_momentum(light, np.array(order), np.array(radius))[0]
+    return gravity, float(plunging.emission_shift(radius, light.lam, k_r, spin, orbit)) / gravity
 
 
 def _met(plan: Plan, hits: HitArrays) -> str:

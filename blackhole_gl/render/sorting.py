@@ -47,7 +47,7 @@ class PixelSorting:
         """The pixels of `hit_map`, which is sharp."""
         plan, scene = inputs.plan, inputs.plan.scene
         size = hit_map.textures[0].size
-        key = hit_map.generation, size, plan.orders, plan.disk_inner, plan.disk_outer, scene.disk.orders_shown, scene.disk.compositing, hides(scene)
+        key = hit_map.generation, size, plan.orders, plan.disk_edge, plan.disk_outer, scene.disk.orders_shown, scene.disk.compositing, hides(scene)
         kept = self._kept
         if kept is None or kept.key != key:
             changed = hit_map.changed_since(kept.key[0]) if kept is not None and kept.key[1:] == key[1:] else None

@@ -11,7 +11,7 @@ from functools import cache
 
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
-from ..physics import observer, shear
+from ..physics import observer, plunging, shear
 from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
@@ -44,7 +44,9 @@ _SHADE_MEMBERS = (
     ("shear_seed", "vec4"),
     ("camera_heading", "vec2"),  # (cos, sin) of the angle that turns hits from the plan's frame to the world
     ("disk_veil", "vec2"),  # of the share of light that a disk of density 1 lets through: log₂; and 1 over what it hides
-    ("disk_r_in", "float"),  # r_s, as used
+    ("disk_fall", "vec4"),  # of what falls in from the ISCO: its radius in M, energy, angular momentum in M along the orbit; 0
+    ("disk_r_in", "float"),  # r_s, as used; where circular orbits end
+    ("disk_r_edge", "float"),  # where matter ends
     ("disk_r_out", "float"),
     ("disk_spin_sign", "float"),  # +1: the matter turns counter-clockwise seen from +z
     ("hole_spin_complement", "float"),  # 1 − |a*|
@@ -145,7 +147,9 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
         shear_seed=(*seeds, 0.0, 0.0),
         camera_heading=observer.cos_sin_deg(plan.turn_deg),
         disk_veil=(math.log2(clear), 1.0 / (1.0 - clear)),
+        disk_fall=(*plunging.constants(plan.space_time.spin, scene.disk.orbit), 0.0),
         disk_r_in=plan.disk_inner,
+        disk_r_edge=plan.disk_edge,
         disk_r_out=plan.disk_outer,
         disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
         hole_spin_complement=1.0 - abs(plan.space_time.spin),

@@ -151,6 +151,14 @@ class Disk:
     outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
     thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing yet: the disk is thin, and so is the pattern on it.", idle=True)
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
+    plunging: bool = switch(
+        False,
+        "Matter inside the innermost stable orbit, too: it falls in with that orbit's energy and angular momentum, and goes on to shine from the temperature "
+        "that it has there, which page_thorne makes 0 without a torque. Off: there is none.",
+    )
+    inner_torque: float = number(
+        0.0, 0.0, 1.0, "", "Torque at the innermost stable orbit, as what it adds to the share of infalling mass that is turned into light. For page_thorne.",
+    )
     temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
     temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
     frequency_shift: str = choice(

@@ -24,7 +24,7 @@ Crossing crossing_of(vec2 point, int fate) {
 bool may_be_covered(Crossing crossing) {
     vec2 change = abs(crossing.right) + abs(crossing.up);
     float reach = 0.5 * (change.x + change.y) + 1e-4 * disk_r_out; // at least the half width below
-    float inner = max(disk_r_in - reach, 0.0), outer = disk_r_out + reach;
+    float inner = max(disk_r_edge - reach, 0.0), outer = disk_r_out + reach;
     float r2 = dot(crossing.point, crossing.point);
     return r2 > inner * inner && r2 < outer * outer && reach < 100.0 * disk_r_out;
 }
@@ -35,12 +35,12 @@ float disk_cover(Crossing crossing) {
     float r = max(length(crossing.point), 1e-6);
     vec2 radial = vec2(dot(crossing.right, crossing.point), dot(crossing.up, crossing.point)) / r;
     float half_width = 0.5 * max(length(radial), 1e-5 * r);
-    float inside = min(disk_r_out, r + half_width) - max(disk_r_in, r - half_width);
+    float inside = min(disk_r_out, r + half_width) - max(disk_r_edge, r - half_width);
     return crossing.point == vec2(0.0) ? 0.0 : clamp(inside / (2.0 * half_width), 0.0, 1.0);
 }
 
 // Whether a point of the plane lies between the disk's edges; without any width, so for views and not for pictures.
 bool on_disk(vec2 point) {
     float r2 = dot(point, point);
-    return r2 >= disk_r_in * disk_r_in && r2 <= disk_r_out * disk_r_out;
+    return r2 >= disk_r_edge * disk_r_edge && r2 <= disk_r_out * disk_r_out;
 }

@@ -1,4 +1,5 @@
-// Circular equatorial orbits in Kerr: their rate and their frequency shift g = E_infinity / E_emitter.
+// Circular equatorial orbits in Kerr, and with DISK_PLUNGING matter that falls in from the innermost stable one (blackhole_gl/physics/plunging.py): their rate and
+// their frequency shift g = E_infinity / E_emitter.
 //
 // r is Boyer–Lindquist in r_s, λ = L_z/E of the photon in M. Inside, M = 1 and x = √(r/M); `turn` is the sense of the
 // emitter (disk_spin_sign), and a_t, λ_t are spin and λ measured along it. Bardeen, Press & Teukolsky 1972: Ω = 1/(x³ + a_t),
@@ -10,6 +11,8 @@
 //   δ  = 1/(1 − Ωλ)       : what depends on the photon's direction: above 1 on the approaching side, below on the other.
 // In the two older viewers' formulas (docs/sources.md), g₀ is √(1 − 1/r) and 1.
 
+#include "common/disk_light.glsl"
+
 float turned_spin() {
     return hole_spin * disk_spin_sign;
 }
@@ -19,9 +22,37 @@ float turned_spin_complement() {
     return turned_spin() > 0.0 ? hole_spin_complement : 1.0 + abs(hole_spin);
 }
 
-// Ω of a circular orbit, in rad per r_s/c, signed by the sense of the orbit.
+#if DISK_PLUNGING
+bool is_falling(float r) {
+    return 2.0 * r < disk_fall.x;
+}
+
+// Δu^t and Δu^φ of matter that falls in, the latter along the orbit; r in M.
+vec2 falling_rates(float r) {
+    float a = turned_spin(), energy = disk_fall.y, momentum = disk_fall.z;
+    return vec2((r * r + a * a * (1.0 + 2.0 / r)) * energy - 2.0 * a / r * momentum, (1.0 - 2.0 / r) * momentum + 2.0 * a / r * energy);
+}
+
+// (g₀, δ) of matter that falls in: g₀ = 1/u^t, and in δ the light's way outwards counts as its way round does.
+vec2 disk_shift_falling(float r, DiskLight light, bool inbound) {
+    float rm = 2.0 * r, above = max(disk_fall.x / rm - 1.0, 0.0);
+    float fall = sqrt(above * (2.0 / 3.0) / disk_fall.x) * above;  // −u^r
+    vec2 rates = falling_rates(rm);
+    float seen = rates.x - rates.y * disk_spin_sign * light.lambda + fall * rm * rm * outward_rate(light, r, inbound);
+    float delta = (rm - hole_w_factors.x) * (rm - hole_w_factors.y);
+    return vec2(delta / rates.x, rates.x / max(seen, 1e-3 * rates.x));
+}
+#endif
+
+// Ω of the matter, in rad per r_s/c, signed by the sense of the orbit.
 float disk_rate(float r) {
     float rm = 2.0 * r;
+#if DISK_PLUNGING
+    if (is_falling(r)) {
+        vec2 rates = falling_rates(rm);
+        return disk_spin_sign * 2.0 * rates.y / rates.x;
+    }
+#endif
     return disk_spin_sign * 2.0 / (rm * sqrt(rm) + turned_spin());
 }
 
@@ -105,7 +136,11 @@ vec2 disk_shift_dragged(float r, float lambda) {
 }
 
 // (g₀, δ) by the formula the scene names.
-vec2 disk_shift(float r, float lambda) {
+vec2 disk_shift(float r, DiskLight light, bool inbound) {
+    float lambda = light.lambda;
+#if DISK_PLUNGING
+    if (is_falling(r)) return disk_shift_falling(r, light, inbound);
+#endif
 #if DISK_FREQUENCY_SHIFT_S0
     return disk_shift_s0(r, lambda);
 #elif DISK_FREQUENCY_SHIFT_S1
@@ -128,7 +163,11 @@ float disk_approach(float r, float lambda) {
 }
 
 // Exact g = E_infinity / E_emitter.
-float disk_g(float r, float lambda) {
-    vec2 shift = disk_shift_exact(r, lambda);
+float disk_g(float r, DiskLight light, bool inbound) {
+#if DISK_PLUNGING
+    vec2 shift = is_falling(r) ? disk_shift_falling(r, light, inbound) : disk_shift_exact(r, light.lambda);
+#else
+    vec2 shift = disk_shift_exact(r, light.lambda);
+#endif
     return shift.x * shift.y;
 }

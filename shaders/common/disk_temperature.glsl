@@ -1,9 +1,9 @@
 // The disk's temperature, and what frequency shifts make of its colour.
 
-uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_in, disk_r_out, t²); blackhole_gl/physics/disk_profile.py
+uniform sampler2D temperature_profile; // one row, T/T_peak at r = mix(disk_r_edge, disk_r_out, t²); blackhole_gl/physics/disk_profile.py
 
 float disk_temperature(float r) {
-    float t = sqrt(clamp((r - disk_r_in) / (disk_r_out - disk_r_in), 0.0, 1.0));
+    float t = sqrt(clamp((r - disk_r_edge) / (disk_r_out - disk_r_edge), 0.0, 1.0));
     return textureLod(temperature_profile, vec2(t, 0.5), 0.0).r;
 }
 

@@ -6,7 +6,7 @@ uniform bool disk_hides; // whether the direct picture hides the first ring's ed
 
 // Where a crossing lies: 0 outside the disk's outer edge, or nowhere, 1 on the disk, 2 inside its inner edge. Between 0 and 2 lies a disk too thin to be met.
 int edge_zone(vec2 point) {
-    return on_disk(point) ? 1 : point != vec2(0.0) && dot(point, point) < disk_r_in * disk_r_in ? 2 : 0;
+    return on_disk(point) ? 1 : point != vec2(0.0) && dot(point, point) < disk_r_edge * disk_r_edge ? 2 : 0;
 }
 
 #if IN_FIELD

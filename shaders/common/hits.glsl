@@ -61,6 +61,10 @@ Hits no_hits(float lambda) {
     return hits;
 }
 
+bool is_inbound(Hits hits, int n) {
+    return (hits.inbound >> n & 1) == 1;
+}
+
 // Puts a crossing into the first free place; those beyond ORDERS are dropped.
 void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
     int place = hits.crossing[0] == vec2(0.0) ? 0 : hits.crossing[1] == vec2(0.0) ? 1 : hits.crossing[2] == vec2(0.0) ? 2 : 3;

@@ -14,10 +14,10 @@ void main() {
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     vec3 colour = view_legend[0];
 #if ORDERS > 0
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
+    DiskLight light = disk_light(hits.lambda, pixel_direction(gl_FragCoord.xy));
     for (int n = ORDERS - 1; n >= 0; --n) {
-        vec2 shift = disk_shift(clamp(length(hits.crossing[n]), disk_r_in, disk_r_out), hits.lambda);
-        if (on_disk(hits.crossing[n])) colour = false_colour(shift.x * shift.y * energy);
+        vec2 shift = disk_shift(clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out), light, is_inbound(hits, n));
+        if (on_disk(hits.crossing[n])) colour = false_colour(shift.x * shift.y * light.energy);
     }
 #endif
     radiance = vec4(colour, 1.0);

@@ -15,10 +15,10 @@ void main() {
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     vec3 colour = view_legend[0];
 #if ORDERS > 0
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(gl_FragCoord.xy)), 1e-6);
+    DiskLight light = disk_light(hits.lambda, pixel_direction(gl_FragCoord.xy));
     for (int n = ORDERS - 1; n >= 0; --n) {
-        float r = clamp(length(hits.crossing[n]), disk_r_in, disk_r_out);
-        vec2 shift = disk_colour_shift(disk_shift(r, hits.lambda), energy);
+        float r = clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out);
+        vec2 shift = disk_colour_shift(disk_shift(r, light, is_inbound(hits, n)), light.energy);
         if (on_disk(hits.crossing[n])) colour = false_colour(disk_temperature_k * disk_temperature(r) * shift.x * shift.y);
     }
 #endif

@@ -29,7 +29,12 @@ RANK = {part: rank for rank, row in enumerate(LAYERS) for part in row}
 
 # The float64 twins share no code with what they check, so that a mistake cannot hide in both; of the rest of the package they know the
 # closed forms, which have tests of their own, and the names of array types.
-INDEPENDENT = {"reference": {"physics.circling", "physics.deflection", "physics.relativity", "physics.torus", "shapes.Bool", "shapes.Float", "shapes.Int"}}
+INDEPENDENT = {
+    "reference": {
+        *("physics.circling", "physics.deflection", "physics.plunging", "physics.relativity", "physics.torus"),
+        *("shapes.Bool", "shapes.Float", "shapes.Int"),
+    }
+}
 
 # Third-party packages that only some modules may import: everything else must work without them.
 CONFINED = {

@@ -35,7 +35,8 @@ def shifts(ctx, tmp_path):
     def run(spin: float, sense: float, radius: np.ndarray, lam: np.ndarray, function: str, switches=None, **uniforms) -> np.ndarray:
         path = tmp_path / "shift.frag"
         path.write_text(
-            "#version 330 core\n#defines\n#blocks\n#include \"common/disk_orbit.glsl\"\nuniform sampler2D cases;\nout vec4 o;\n"
+            "#version 330 core\n#defines\n#blocks\n#include \"common/disk_orbit.glsl\"\n"
+            "#define LIGHT DiskLight(c.y, c.z, 1.0)\nuniform sampler2D cases;\nout vec4 o;\n"
             f"void main() {{ vec4 c = texelFetch(cases, ivec2(gl_FragCoord.xy), 0); o = vec4({function}, 0.0, 0.0); }}\n"
         )
         piece = Piece(ctx, path, switches=switches, hole_spin=spin, disk_spin_sign=sense, hole_spin_complement=1.0 - abs(spin), **uniforms)
@@ -58,7 +59,7 @@ def test_exact_g(shifts, spin: float, sense: float) -> None:
     lam = (sense * (low + (high - low) * rng.random(count))).astype(np.float32)
     orbit = x**3 + a
     exact = x**1.5 * np.sqrt(x**3 - 3 * x + 2 * a) / (orbit - sense * lam.astype(float))
-    got = shifts(spin, sense, radius, lam, "disk_g(c.x, c.y), 0.0")[:, 0]
+    got = shifts(spin, sense, radius, lam, "disk_g(c.x, LIGHT, false), 0.0")[:, 0]
     assert np.isfinite(got).all()
     assert np.abs(got / exact - 1.0).max() <= 2e-5
 
@@ -101,8 +102,8 @@ def test_light_that_cannot_be_there_is_shifted_as_the_most_that_can(shifts, spin
     radius = (0.5 * isco(a) * np.geomspace(1.001, 20.0, count)).astype(np.float32)
     most = lambda_bounds(2.0 * radius.astype(float), a)[1]
     beyond = (sense * most * np.linspace(1.0, 10.0, count)).astype(np.float32)
-    at_most = shifts(spin, sense, radius, (sense * most).astype(np.float32), "disk_shift(c.x, c.y)")
-    np.testing.assert_allclose(shifts(spin, sense, radius, beyond, "disk_shift(c.x, c.y)"), at_most, rtol=2e-4)
+    at_most = shifts(spin, sense, radius, (sense * most).astype(np.float32), "disk_shift(c.x, LIGHT, false)")
+    np.testing.assert_allclose(shifts(spin, sense, radius, beyond, "disk_shift(c.x, LIGHT, false)"), at_most, rtol=2e-4)
     assert np.all(at_most > 0.0) and np.all(np.isfinite(at_most))
 
 
@@ -145,5 +146,5 @@ def test_dragged_matter_has_the_g_of_its_rate(shifts, spin: float, sense: float)
     clock = -g_tt - 2.0 * g_tp * rate - g_pp * rate * rate
     assert clock.min() > 0.05
     switches = {"RAYS_MODEL_KERR_LIKE": 1, "RAYS_KERR_LIKE_FLOW": 1}
-    got = shifts(spin, sense, radius, lam, "disk_shift(c.x, c.y)", switches, rays_kerr_like_drag=1.5).prod(-1)
+    got = shifts(spin, sense, radius, lam, "disk_shift(c.x, LIGHT, false)", switches, rays_kerr_like_drag=1.5).prod(-1)
     np.testing.assert_allclose(got, np.sqrt(clock) / (1.0 - rate * along), rtol=2e-5)
