@@ -1,4 +1,4 @@
-"""Draws the labels of `render.labels` and the ticks of `render.polarized_disk` over the window's picture."""
+"""Draws the labels of `render.labels`, the bar of `render.scale_bar` and the ticks of `render.polarized_disk` over the window's picture."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render import labels, polarized_disk
+from ..render import labels, polarized_disk, scale_bar
 from ..render.annotation import pieces
 from ..render.views import Colour
 from ..scene import Scene
@@ -44,6 +44,7 @@ class LabelOverlay:
                 return
             self._of = of
         _draw(self._shown, corner, size)
+        _draw(scale_bar.of(state.scene, aspect), corner, size)
 
 
 def _draw(shown: labels.Labels, corner: Corner, size: tuple[float, float]) -> None:

@@ -12,7 +12,7 @@ _HANDLER = "blackhole_gl.spelled_out"
 # What neither its name nor its decomposition spells out in ASCII.
 _SPELLED = {
     "×": "x", "·": "*", "°": " deg", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "√": "sqrt", "±": "+-",
-    "–": "-", "—": "-", "−": "-", "“": '"', "”": '"', "’": "'",
+    "–": "-", "—": "-", "−": "-", "“": '"', "”": '"', "’": "'", "µ": "u", "☉": "_sun",
 }
 
 

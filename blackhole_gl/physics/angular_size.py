@@ -39,9 +39,14 @@ def picture_height_uas(camera: Camera, source: Source) -> float:
     return picture_height_m(camera) * m_uas(source)
 
 
+def is_told(scene: Scene) -> bool:
+    """Whether angles on the sky mean something in `scene`: it stands for a real object, or is seen with a beam, whose width is such an angle."""
+    return scene.source.real or scene.post.beam
+
+
 def told(scene: Scene) -> str:
     """What is said of the real object's size on the sky; empty where the scene stands for none."""
-    if not scene.source.real:
+    if not is_told(scene):
         return ""
     height = picture_height_uas(scene.camera, scene.source)
     return f"1 M = {m_uas(scene.source):.3g} µas, picture {height:.4g} µas high"

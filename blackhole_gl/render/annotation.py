@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ..output.streams import spelled
 from ..scene import Scene
-from . import labels, polarized_disk
+from . import labels, polarized_disk, scale_bar
 from .labels import Labels
 from .views import Colour, Scale, View, tick_text
 
@@ -16,6 +17,7 @@ _TEXT_SHARE = 1.0 / 42.0  # of the picture's height
 _TEXT: Colour = (0.86, 0.87, 0.90)
 _BACKDROP = (12, 12, 13, 165)
 _PIECES = 128
+_LACKED = "\ue123"  # of no script: what a font draws for a letter that it lacks
 
 
 def annotated(pixels: np.ndarray, scene: Scene, view: View | None) -> np.ndarray:
@@ -35,6 +37,7 @@ def annotated(pixels: np.ndarray, scene: Scene, view: View | None) -> np.ndarray
         sheet.labels(polarized_disk.ticks(scene, width / height))
     if scene.post.labels:
         sheet.labels(labels.of(scene, width / height))
+        sheet.labels(scale_bar.of(scene, width / height))
     if legend is not None:
         sheet.legend(legend)
     return sheet.over(pixels)
@@ -108,12 +111,18 @@ class _Sheet:
 
     def _boxed(self, text: str, place: tuple[float, float], colour: Colour, anchor: str) -> None:
         """`text` on a backdrop, moved as little as brings it into the picture."""
+        text = self._written(text)
         half, wide = 0.75 * self._em, self._wide(text) + 0.6 * self._em
         left = place[0] - {"l": 0.0, "m": 0.5, "r": 1.0}[anchor[0]] * wide
         left = min(max(left, 2.0), max(self._size[0] - wide - 2.0, 2.0))
         y = min(max(place[1], half + 2.0), self._size[1] - half - 2.0)
         self._box(left, y - half, left + wide, y + half, _BACKDROP)
         self._text(text, (left + 0.3 * self._em, y), colour, "lm")
+
+    def _written(self, text: str) -> str:
+        """`text` with the letters that the font lacks spelled out."""
+        missing = bytes(self._font.getmask(_LACKED))
+        return "".join(letter if bytes(self._font.getmask(letter)) != missing else spelled(letter) for letter in text)
 
     def _wide(self, text: str) -> float:
         return self._font.getlength(text) / _FINER

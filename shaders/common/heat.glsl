@@ -5,6 +5,7 @@
 
 vec3 heat(float brightness) {
     float rest = 1.0 - clamp(brightness, 0.0, 1.0);
-    return vec3(1.0 - rest * rest * rest, smoothstep(0.1, 0.95, brightness), smoothstep(0.6, 1.0, brightness));
+    float white = max(2.0 * brightness - 1.0, 0.0);
+    return vec3(1.0 - rest * rest * rest, smoothstep(0.1, 0.95, brightness), min(white * white, 1.0));
 }
 #endif
