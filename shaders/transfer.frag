@@ -17,6 +17,7 @@
 #defines
 #blocks
 #include "common/constants.glsl"
+#include "common/finite.glsl"
 #include "common/observer.glsl"
 #include "common/rotation.glsl"
 #include "common/hermite.glsl"
@@ -171,7 +172,8 @@ void main() {
         changes_in = changes ? 0.0 : max(changes_in - h, 0.0);
 
         vec3 turn = there.towards - here.towards;
-        float way = distance(there.x, here.x) * (1.0 + dot(turn, turn) / 24.0) * 0.5 * (here.affine + there.affine);
+        float r = length(there.x), way = distance(there.x, here.x) * (1.0 + dot(turn, turn) / 24.0) * 0.5 * (here.affine + there.affine);
+        if (r < (1.0 + HORIZON_MARGIN) * inner_radius() || !is_finite(vec3(way)) || !is_finite(there.gains + there.loses)) break;  // at the horizon places may have no rate
         float share = changes ? here.edge / max(here.edge + there.edge, 1e-20) : 0.5;  // of the piece that is as it begins
         vec3 gains = mix(there.gains, here.gains, share), loses = mix(there.loses, here.loses, share);
         float crossed = 1.0;
@@ -189,8 +191,7 @@ void main() {
         }
 #endif
         left *= exp(-loses * way);
-        float r = length(there.x);
-        bool ended = all(lessThan(left, vec3(LEAST_PASSED))) || r < (1.0 + HORIZON_MARGIN) * inner_radius() || ray_fate(orbit, next) == ESCAPED;
+        bool ended = all(lessThan(left, vec3(LEAST_PASSED))) || ray_fate(orbit, next) == ESCAPED;
         ended = ended || r > meeting_reach && dot(there.x, there.towards) < 0.0 || distance(there.x, end) <= there.fine;
 #ifdef RAY_RECHARTS
         next = ray_recharted(s, next);

@@ -76,6 +76,8 @@ SHOTS = (
     Shot("orbiting_star", ("orbiting_star",)),
     Shot("neutron_star", ("neutron_star",)),
     Shot("knot_behind_a_hole", ("knot_behind_a_hole",)),
+    Shot("polish_doughnut", ("polish_doughnut",)),
+    Shot("cloudy_slab", ("cloudy_slab",), time=24.0),
 )
 
 

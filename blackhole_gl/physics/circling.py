@@ -50,8 +50,9 @@ def with_angular_momentum(l: ArrayLike, metric: Turning) -> Circling:  # noqa: E
     l = np.asarray(l, dtype=np.float64)  # noqa: E741
     own = metric.phiphi + l * (2.0 * metric.tphi + l * metric.tt)
     with np.errstate(divide="ignore", invalid="ignore"):
-        down = -np.sqrt(np.where((own > 0.0) & (metric.det > 0.0), metric.det / own, np.nan))
-        omega = -(metric.tphi + l * metric.tt) / (metric.phiphi + l * metric.tphi)
+        onward = metric.phiphi + l * metric.tphi  # has the sign of u^t: in the ergosphere there is an own > 0 that runs backwards in time
+        down = -np.sqrt(np.where((own > 0.0) & (metric.det > 0.0) & (onward > 0.0), metric.det / own, np.nan))
+        omega = -(metric.tphi + l * metric.tt) / onward
     return Circling(-1.0 / (down * (1.0 - omega * l)), omega, down)
 
 

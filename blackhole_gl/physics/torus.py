@@ -5,8 +5,9 @@ Equal W is equal pressure and density:
 
     rho = [ (Gamma - 1)/(Gamma K) (e^(W_in - W) - 1) ]^(1/(Gamma - 1))
 
-In the equatorial plane W has its minimum, the pressure's maximum, and its cusp, over which matter falls into the hole, where Kepler's l is the torus's. It is
-closed for W_in between W at the cusp and 0, and l between that of the marginally stable and that of the marginally bound orbit.
+In the equatorial plane W has its minimum, the pressure's maximum, and its cusp, over which matter falls into the hole, where Kepler's l is the torus's: l is
+more than that of the marginally stable orbit. It is closed for W_in below W at the cusp and below 0; above l of the marginally bound orbit 0 is the lower,
+and above l of the circular orbit of light there is no cusp.
 
 Source: Abramowicz, Jaroszynski & Sikora 1978 (A&A 63, 221); Font & Daigne 2002 (MNRAS 334, 383) for the density.
 """
@@ -42,7 +43,7 @@ def stable_radius(spin: float) -> float:
 
 
 def momentum_range(spin: float) -> tuple[float, float]:
-    """l in M between which a closed torus has a cusp: that of the marginally stable and that of the marginally bound orbit."""
+    """l in M between which a torus may reach its cusp and still be closed: that of the marginally stable and that of the marginally bound orbit."""
     return float(kepler_momentum(stable_radius(spin), spin)), float(kepler_momentum(bound_radius(spin), spin))
 
 
@@ -52,9 +53,9 @@ class Torus:
 
     Attributes:
         spin: a* of the hole; negative where that turns the other way.
-        momentum: l in M, within `momentum_range`.
-        filling: W_in, as the part 0 ... 1 of the way from its value at the pressure's maximum, where nothing is left, to that at the cusp (or to 0,
-            where the cusp's is above), where all is full.
+        momentum: l in M, above the lower end of `momentum_range`.
+        filling: W_in, as the part 0 ... 1 of the way from its value at the pressure's maximum, where nothing is left, to that at the cusp or to 0, whichever
+            is lower, where all is full.
         gamma: the adiabatic index.
 
     Raises:
@@ -67,18 +68,27 @@ class Torus:
     gamma: float = 4.0 / 3.0
 
     def __post_init__(self) -> None:
-        low, high = momentum_range(self.spin)
-        if not low < self.momentum <= high:
-            raise ValueError(f"torus: got the angular momentum {self.momentum:g}; at spin {self.spin:g} a closed one has {low:.6g} to {high:.6g}")
+        low = momentum_range(self.spin)[0]
+        if not low < self.momentum:
+            raise ValueError(f"torus: got the angular momentum {self.momentum:g}; at spin {self.spin:g} it is above {low:.6g}")
         if not 0.0 < self.filling <= 1.0:
             raise ValueError(f"torus: got the filling {self.filling:g}; allowed is above 0, up to 1")
         if not self.gamma > 1.0:
             raise ValueError(f"torus: got the adiabatic index {self.gamma:g}; allowed is above 1")
 
+    @classmethod
+    def between(cls, spin: float, inner: float, centre: float, gamma: float = 4.0 / 3.0) -> Torus:
+        """The torus with its inner edge, or W_in, and its pressure's maximum at these radii in M."""
+        whole = cls(spin, float(kepler_momentum(centre, spin)), 1.0, gamma)
+        lowest = float(whole.potential(centre, 1.0))
+        filling = (float(whole.potential(inner, 1.0)) - lowest) / (whole.surface_potential - lowest)
+        return cls(spin, whole.momentum, filling, gamma)
+
     @cached_property
     def cusp(self) -> float:
-        """r in M of the cusp."""
-        return self._kepler_radius(bound_radius(self.spin), stable_radius(self.spin))
+        """r in M of the cusp; the circular orbit of light's where there is none."""
+        light = 2.0 * float(relativity.photon_orbit_radius(abs(self.spin), "prograde" if self.spin >= 0.0 else "retrograde"))
+        return self._kepler_radius(light * (1.0 + 1e-12), stable_radius(self.spin))
 
     @cached_property
     def centre(self) -> float:
@@ -108,7 +118,7 @@ class Torus:
     @cached_property
     def surface_potential(self) -> float:
         """W_in."""
-        lowest, rim = float(self.potential(self.centre, 1.0)), min(float(self.potential(self.cusp, 1.0)), 0.0)
+        lowest, rim = float(self.potential(self.centre, 1.0)), float(np.fmin(self.potential(self.cusp, 1.0), 0.0))
         return lowest + self.filling * (rim - lowest)
 
     @cached_property

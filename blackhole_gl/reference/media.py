@@ -144,16 +144,20 @@ class AnalyticPlasma:
 
 @dataclass(frozen=True)
 class Doughnut:
-    """A Polish doughnut: emission and absorption on 1 r_s go with its density, 1 at the pressure's maximum; one of each for a colour."""
+    """A Polish doughnut: absorption on 1 r_s goes with its density, and is `absorption` at the pressure's maximum; the source is the same everywhere.
+
+    There is none beyond `limit`, r in r_s.
+    """
 
     torus: torus.Torus
     absorption: tuple[float, ...]
     source: tuple[float, ...]
+    limit: float = 1e4
     power: float = 4.0
 
     @property
     def reach(self) -> float:
-        return 0.5 * self.torus.outer_radius
+        return min(0.5 * self.torus.outer_radius, self.limit)
 
     @property
     def channels(self) -> int:
@@ -162,7 +166,7 @@ class Doughnut:
     def level(self, x: Float[Array, " 3 *points"], space: Space) -> Float[Array, "*points"]:
         r, sine2 = self._where(x)
         outside = self.torus.potential(r, sine2) - self.torus.surface_potential
-        return np.where(np.isfinite(outside) & (r > self.torus.cusp), outside, 1.0)
+        return np.where(np.isfinite(outside) & (r > self.torus.cusp), np.maximum(outside, 0.5 * r - self.limit), 1.0)
 
     def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return 0.05 * np.sqrt((x * x).sum(axis=0)) + 0.05
@@ -171,12 +175,48 @@ class Doughnut:
         r, sine2 = self._where(x)
         density = self.torus.density(r, sine2)
         absorption = density * _colours(self.absorption, x)
-        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(self.torus.matter(r, sine2), lam))
+        turning = circling.with_angular_momentum(self.torus.momentum, space.turning(x))
+        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(turning, lam))
 
     @staticmethod
     def _where(x: Array) -> tuple[Array, Array]:
         r2 = (x * x).sum(axis=0)
         return 2.0 * np.sqrt(r2), np.maximum((x[0] ** 2 + x[1] ** 2) / r2, 1e-24)
+
+
+@dataclass(frozen=True)
+class Slab:
+    """A smooth slab, |z| < height and inner < R < outer in r_s: density (1 - m) exp(-z^2/(2 height^2)), m from 0 at the inner edge to 1 at the outer one.
+
+    Absorption on 1 r_s goes with the density and is `absorption` at its densest; the source falls as (inner/R)^3 from `source`. It turns counter-clockwise, as
+    the circular geodesic of the same R in the plane does.
+    """
+
+    inner: float
+    outer: float
+    height: float
+    absorption: float
+    source: float
+    channels: int = 1
+    power: float = 4.0
+
+    @property
+    def reach(self) -> float:
+        return self.outer + self.height
+
+    def level(self, x: Float[Array, " 3 *points"], space: Space) -> Float[Array, "*points"]:
+        ring = np.hypot(x[0], x[1])
+        return np.maximum(np.maximum(self.inner - ring, ring - self.outer), np.abs(x[2]) - self.height)
+
+    def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
+        return np.maximum(0.5 * self.height, 0.7 * (np.abs(x[2]) - self.height))
+
+    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
+        ring = np.hypot(x[0], x[1])
+        share = (ring - self.inner) / (self.outer - self.inner)
+        absorption = self.absorption * (1.0 - share) * np.exp(-0.5 * (x[2] / self.height) ** 2)
+        turning = circling.with_angular_velocity(1.0 / ((2.0 * ring) ** 1.5 + space.spin), space.turning(x))
+        return Matter((absorption * self.source * (self.inner / ring) ** 3)[None], absorption[None], circling.shift(turning, lam))
 
 
 def _colours(values: tuple[float, ...], x: Array) -> Array:

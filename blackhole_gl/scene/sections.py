@@ -149,7 +149,7 @@ class Disk:
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
     outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
-    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing yet: the disk is thin, and so is the pattern on it.", idle=True)
+    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing: the disk is thin. A medium of the kind slab has depth.", idle=True)
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
     plunging: bool = switch(
         False,

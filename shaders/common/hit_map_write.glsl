@@ -1,4 +1,5 @@
 // Writes hits into the targets of the trace pass. The other half is hit_map_read.glsl.
+#include "common/finite.glsl"
 #include "common/hit_texels.glsl"
 
 layout(location = 0) out vec4 hits0_out;
@@ -45,11 +46,6 @@ layout(location = FREE_TARGET_1) out vec4 momenta1_out;
 #if POST_VIEW_CONSERVATION
 float march_drift = -1.0;  // relative drift of what the ray's model conserves; −1: nothing measured
 #endif
-
-// Looks at the bits: compilers take liberties with comparisons of what is no number, Mesa's among them.
-bool is_finite(vec3 v) {
-    return all(notEqual(floatBitsToUint(v) & uvec3(0x7f800000u), uvec3(0x7f800000u)));
-}
 
 // Hits with every number finite: what is not becomes an unresolved ray.
 Hits only_finite(Hits hits) {

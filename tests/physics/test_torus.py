@@ -42,6 +42,7 @@ def test_the_velocity_is_a_unit_vector_off_the_plane_too():
 def test_where_nothing_can_turn_so_there_is_no_matter():
     assert np.isnan(circling.with_angular_velocity(0.2, circling.turning_metric(6.0, 1.0, 0.0)).u_t)
     assert np.isnan(circling.with_angular_momentum(4.0, circling.turning_metric(1.9, 1.0, 0.0)).u_t)
+    assert np.isnan(circling.with_angular_momentum(3.6, circling.turning_metric(1.1, 1.0, 0.998)).u_t)  # backwards in time
 
 
 def test_without_mass_matter_turns_as_in_flat_space():
@@ -88,8 +89,17 @@ def test_a_full_torus_of_the_marginally_bound_orbit_has_no_end():
     assert Torus(0.0, 4.0).density([3.9, 3e3], 1.0) == pytest.approx([0.0, 0.0], abs=1e-6)
 
 
+@pytest.mark.parametrize("spin, inner, centre", [(0.0, 6.0, 10.0), (0.9, 3.0, 5.0), (-0.9, 12.0, 20.0), (0.0, 25.0, 40.0), (0.998, 7.0, 10.0)])
+def test_a_torus_is_told_by_its_inner_edge_and_its_centre(spin, inner, centre):
+    """The last two with more angular momentum than the circular orbit of light has, and so without a cusp."""
+    torus = Torus.between(spin, inner, centre)
+    assert torus.inner_radius == pytest.approx(inner, rel=1e-9)
+    assert torus.centre == pytest.approx(centre, rel=1e-9)
+    assert np.isfinite(torus.outer_radius)
+
+
 @pytest.mark.parametrize("options, message", [
-    ({"momentum": 3.5}, "3.5; at spin 0 a closed one has 3.67423 to 4"),
+    ({"momentum": 3.5}, "3.5; at spin 0 it is above 3.67423"),
     ({"momentum": 3.9, "filling": 0.0}, "filling 0"),
     ({"momentum": 3.9, "gamma": 1.0}, "adiabatic index 1"),
 ])

@@ -1,0 +1,82 @@
+/*---
+label = "Slab"
+summary = "A disk with depth, |z| < h, of sheared clouds: density (1 − m) exp(−z²/2h²), m from 0 at the inner edge to 1 at the outer one."
+source = "BlackHoleGPU (docs/sources.md): its volumetric disk, octave i of simplex noise at frequency i² · scale, alternate octaves turning opposite ways, grain at 18 times the scale"
+slot = "medium"
+rank = 4
+changes = true
+reach = ["outer_radius", "height"]
+increasing = ["inner_radius", "outer_radius"]
+
+[parameters]
+inner_radius = { default = 3.0, range = [0.5, 500.0], unit = "r_s", help = "Its inner edge." }
+outer_radius = { default = 12.0, range = [0.5, 1000.0], unit = "r_s", help = "Its outer edge, where it has thinned out." }
+height = { default = 0.4, range = [0.01, 10.0], unit = "r_s", help = "h: half of its thickness." }
+depth = { default = 2.0, range = [0.0, 100.0], unit = "1/r_s", help = "Optical depth of 1 r_s where it is densest, in its own frame." }
+brightness = { default = 1.0, range = [0.0, 100.0], unit = "×", help = "Radiance that a very deep one has at its inner edge, in its own frame." }
+temperature_k = { default = 6500.0, range = [1000.0, 40000.0], unit = "K", help = "Temperature at its inner edge; it falls as r^(−3/4)." }
+octaves = { default = 3, range = [0, 5], help = "How many octaves of clouds are multiplied; 0 leaves it smooth." }
+contrast = { default = 2.0, range = [0.0, 4.0], unit = "×", help = "Of each octave; 1 as published, between nothing and twice the mean." }
+frequency = { default = 0.68, range = [0.01, 5.0], unit = "1/r_s", help = "Frequency of the coarsest octave." }
+grain = { default = 0.0, range = [0.0, 6.0], unit = "×", help = "Contrast of the finest grain; 1 as published, 0.85 to 1.15." }
+speed = { default = 0.7, range = [0.0, 5.0], unit = "×", help = "How fast the clouds turn; 1 is the Keplerian rate, at which the matter that shines turns always." }
+---*/
+#include "common/rotation.glsl"
+#include "common/colour.glsl"
+#include "common/solid_noise.glsl"
+
+const float GRAIN_FREQUENCY = 18.0;  // over that of the coarsest octave
+
+float medium_slab_distance(int i, vec3 x) {
+    float out_from_axis = length(x.xy);
+    float beside = max(medium_slab_inner_radius(i) - out_from_axis, out_from_axis - medium_slab_outer_radius(i));
+    return max(beside, abs(x.z) - medium_slab_height(i));
+}
+
+// Fine enough for the clouds, but where they are finer than a third of its height.
+float medium_slab_scale(int i, vec3 x) {
+    float octaves = medium_slab_contrast(i) > 0.0 ? float(medium_slab_octaves(i)) : 0.0;
+    float finest = medium_slab_frequency(i) * max(octaves * octaves, medium_slab_grain(i) > 0.0 ? GRAIN_FREQUENCY : 0.0);
+    float clouds = max(2.0 / max(finest, 1e-6), medium_slab_height(i) / 3.0);
+    return min(min(2.0 * medium_slab_height(i), clouds), length(x.xy));
+}
+
+// Circular orbits' rate, rad per r_s/c, with the hole.
+float slab_rate(float out_from_axis) {
+    float x = 2.0 * out_from_axis;
+    return (hole_spin < 0.0 ? -2.0 : 2.0) / (x * sqrt(x) + abs(hole_spin));
+}
+
+// Density of the clouds of one pattern of that age, mean 1. `turned`: by how much a pattern of age 1 has turned; `width`: what is finer than that is not there.
+float slab_clouds(int i, vec3 x, float turned, float width, float age, uint seed) {
+    vec2 turn = cos_sin(-turned * age);
+    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned) * age), first = medium_slab_frequency(i);
+    vec3 forwards = vec3(rotate(x.xy, turn), x.z), backwards = vec3(rotate(x.xy, vec2(turn.x, -turn.y)), x.z);
+    for (int octave = 1; octave <= 5; ++octave) {
+        if (octave > medium_slab_octaves(i)) break;
+        float frequency = float(octave * octave) * first;
+        float kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
+        vec3 place = octave % 2 == 1 ? forwards : backwards;
+        density *= max(1.0 + medium_slab_contrast(i) * kept * solid_noise(frequency * place, seed + uint(octave)), 0.0);
+    }
+    float kept = clamp(1.6 - 2.0 * GRAIN_FREQUENCY * first * wound, 0.0, 1.0);
+    return density * (1.0 + 0.15 * medium_slab_grain(i) * kept * solid_noise(GRAIN_FREQUENCY * first * forwards, seed + 13u));
+}
+
+Matter medium_slab_matter(int i, Sight sight) {
+    vec3 x = sight.place;
+    float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i), height = x.z / medium_slab_height(i);
+    float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
+    float density = max(1.0 - share, 0.0) * exp(-0.5 * height * height), rate = slab_rate(out_from_axis);
+    float width = max(max(length(sight.right), length(sight.up)), 0.5 * plan_medium_step * medium_slab_scale(i, x));
+    vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
+    uvec2 seeds = uvec2(shear_seed.xy) * 16u;
+    float turned = medium_slab_speed(i) * rate;
+    vec2 clouds = vec2(slab_clouds(i, x, turned, width, shear_phase.x, seeds.x), slab_clouds(i, x, turned, width, shear_phase.y, seeds.y));
+    density *= max(1.0 + dot(weights, clouds - 1.0), 0.0);
+
+    float shift = emitted_shift(sight, rate * vec3(-x.y, x.x, 0.0)), warmth = inner / max(out_from_axis, 1e-6);
+    vec3 colour = blackbody_colour(medium_slab_temperature_k(i) * pow(warmth, 0.75) * shift * sight.energy);
+    vec3 absorption = vec3(density * medium_slab_depth(i));
+    return Matter(absorption * medium_slab_brightness(i) * warmth * warmth * warmth * colour, absorption, shift);
+}
