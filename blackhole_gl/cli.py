@@ -241,7 +241,7 @@ def ring(
     time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
     backend: Backend = "auto",
 ) -> None:
-    """Measure the ring in a picture: diameter, width and asymmetry, of the light as it comes and through the scene's beam."""
+    """Measure the ring in a picture: diameter, width, asymmetry and beta_2, of the light as it comes and through the scene's beam."""
     from .measure import ring as ring_measure
 
     preset = [*(names or ()), *(preset or ())]

@@ -28,7 +28,7 @@ class LabelOverlay:
             return
         if state.scene.polarization.ticks and state.scene.post.view == "picture":
             try:
-                _draw(polarized_disk.ticks(state.scene, size[0] / size[1]), corner, size)
+                _draw(polarized_disk.ticks(state.scene, size[0] / size[1], moving=state.camera_moves), corner, size)
             except ValueError:  # as below
                 return
         if state.scene.post.labels:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,12 +43,20 @@ class PolarizationMaps:
 
     @property
     def beta_2(self) -> complex:
-        """Σ (Q + iU) e^{−2iφ} / Σ I with φ, too, from up counter-clockwise about the hole: 1 for light polarized outwards, −1 round, ±i for spirals (Palumbo,
-        Wong & Prather 2020), times the polarized share."""
+        """`beta_2_about` the hole."""
+        return self.beta_2_about(self.hole)
+
+    def beta_2_about(self, centre: tuple[float, float]) -> complex:
+        """Σ (Q + iU) e^{−2iφ} / Σ I with φ, too, from up counter-clockwise about `centre` (as `hole`): 1 for light polarized outwards, −1 round, ±i for
+        spirals (Palumbo, Wong & Prather 2020), times the polarized share."""
         height, width = self.stokes.i.shape
-        x, y = np.meshgrid(np.arange(width) + 0.5 - self.hole[0], self.hole[1] - np.arange(height) - 0.5)
+        x, y = np.meshgrid(np.arange(width) + 0.5 - centre[0], centre[1] - np.arange(height) - 0.5)
         turn = np.exp(-2j * np.arctan2(-x, y))
         return complex(((self.stokes.q + 1j * self.stokes.u) * turn).sum() / self.stokes.i.sum())
+
+    def through(self, blur: Callable[[Float[np.ndarray, "h w"]], Float[np.ndarray, "h w"]]) -> PolarizationMaps:
+        """The maps with each of I, Q and U through `blur`."""
+        return replace(self, stokes=Stokes(*(blur(part) for part in (self.stokes.i, self.stokes.q, self.stokes.u))))
 
     def as_npz(self) -> bytes:
         """A NumPy archive of I, Q and U."""

@@ -1,13 +1,15 @@
-"""What astronomers read off the picture of a ring: diameter, width, asymmetry.
+"""What astronomers read off the picture of a ring: diameter, width, asymmetry, and how its polarization turns.
 
 By the definitions of the Event Horizon Telescope Collaboration, "First M87 Event Horizon Telescope Results. IV", ApJL 875 L4 (2019), section 9.1. Along each
 ray from a centre the ring is where the light is brightest; the centre is that from which these radii spread least over their mean. Diameter: twice that mean.
 Width: the mean full width at half maximum along those rays, above the mean light far out. Asymmetry and orientation: the first Fourier component of the light
-round the centre over its mean, for each radius within the width, averaged.
+round the centre over its mean, for each radius within the width, averaged. β₂ of the polarization is that of `polarization_maps`, about the same centre, of the
+smooth disk's light alone.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,10 +17,13 @@ from functools import lru_cache
 import numpy as np
 
 from ..physics.angular_size import m_uas, picture_height_m
+from ..plan import plan as make_plan
 from ..render.beam import sigma_px
 from ..render.frame import Renderer
+from ..render.polarized_disk import why_not
 from ..scene import Scene, SceneError
 from ..shapes import Float
+from . import polarization_maps
 
 FLOOR_RADIUS = 2.4
 """Where light counts as none of the ring's, in radii of the ring: the 50 µas that were taken for M87*, whose ring is 42 µas across."""
@@ -28,6 +33,7 @@ _ANGLES = np.linspace(0.0, 2.0 * np.pi, 180, endpoint=False)
 _RADIAL_STEP = 0.5  # pixels
 _FIRST_STEP = 0.1  # of the search for the centre, in heights of the picture
 _LAST_STEP = 0.01  # pixels
+_POLARIZED_ROWS = 240  # of the maps that beta_2 is a mean over
 
 
 @dataclass(frozen=True)
@@ -58,12 +64,15 @@ class Measured:
         sharp: of its light as it comes; None where there is no ring.
         blurred: of the same through the scene's beam, whether the picture is shown so or not.
         pixel_m, pixel_uas: sides of a pixel in M and in µas.
+        sharp_beta_2, blurred_beta_2: of the polarization; None where there is no ring, or the polarization is not known.
     """
 
     sharp: Ring | None
     blurred: Ring | None
     pixel_m: float
     pixel_uas: float
+    sharp_beta_2: complex | None = None
+    blurred_beta_2: complex | None = None
 
 
 def refuse(scene: Scene) -> None:
@@ -86,7 +95,28 @@ def measure(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int]
     renderer.render(scene, time, size)
     light = renderer.radiance().astype(float) @ _LUMINANCE
     pixel_m = picture_height_m(scene.camera) / size[1]
-    return Measured(ring_of(light), ring_of(blurred(light, sigma_px(scene, size[1]))), pixel_m, pixel_m * m_uas(scene.source))
+    sharp, smooth = ring_of(light), ring_of(blurred(light, sigma_px(scene, size[1])))
+    return Measured(sharp, smooth, pixel_m, pixel_m * m_uas(scene.source), *_betas(scene, size, sharp, smooth))
+
+
+def _betas(scene: Scene, size: tuple[int, int], sharp: Ring | None, smooth: Ring | None) -> tuple[complex | None, complex | None]:
+    """β₂ about the rings of a picture of `size`, without and with the beam."""
+    if why_not(make_plan(scene)):
+        return None, None
+    share = min(1.0, _POLARIZED_ROWS / size[1])
+    small = max(round(share * size[0]), 1), max(round(share * size[1]), 1)
+    try:
+        maps = polarization_maps.measure(scene, small)
+    except SceneError:  # no light of the disk: what there is in the picture is something else's
+        return None, None
+    through = maps.through(lambda part: blurred(part, sigma_px(scene, small[1])))
+
+    def of(found: polarization_maps.PolarizationMaps, ring: Ring | None) -> complex | None:
+        if ring is None:
+            return None
+        return found.beta_2_about(((ring.centre[0] + 0.5) * small[0] / size[0], (ring.centre[1] + 0.5) * small[1] / size[1]))
+
+    return of(maps, sharp), of(through, smooth)
 
 
 def blurred(light: Float[np.ndarray, "h w"], sigma: float) -> Float[np.ndarray, "h w"]:
@@ -120,7 +150,8 @@ def ring_of(light: Float[np.ndarray, "h w"]) -> Ring | None:
 def text(found: Measured, scene: Scene) -> str:
     """Lines for people, without and with the beam."""
     lines = [f"1 M = {m_uas(scene.source):.4g} µas ({scene.source.mass_suns:.4g} suns at {scene.source.distance_pc:.4g} pc); 1 px = {found.pixel_m:.4g} M"]
-    for title, ring in (("as it comes", found.sharp), (f"through a beam of {scene.post.beam_uas:g} µas", found.blurred)):
+    kinds = ("as it comes", found.sharp, found.sharp_beta_2), (f"through a beam of {scene.post.beam_uas:g} µas", found.blurred, found.blurred_beta_2)
+    for title, ring, beta in kinds:
         lines.append(f"{title}:")
         if ring is None:
             lines.append("  no ring within the picture")
@@ -129,6 +160,8 @@ def text(found: Measured, scene: Scene) -> str:
             lines.append(f"  {name:12}{pixels:9.2f} px {pixels * found.pixel_m:9.3f} M {pixels * found.pixel_uas:9.2f} µas")
         lines.append(f"  {'spread':12}{ring.spread:9.4f}    of the radius, over its mean")
         lines.append(f"  {'asymmetry':12}{ring.asymmetry:9.4f}    brightest at {ring.orientation_deg:.0f}° from up to the left")
+        if beta is not None:
+            lines.append(f"  {'β₂':12}{abs(beta):9.4f}    phase {math.degrees(cmath.phase(beta)):.0f}°, 0° for polarization outwards, 180° for round")
     return "\n".join(lines) + "\n"
 
 

@@ -18,6 +18,7 @@ from ..plan import plan as make_plan
 from ..scene import Scene, SceneError, met
 from ..shapes import Float
 from . import labels
+from .beam import sigma_px
 from .labels import Curve, Labels
 from .views import Colour
 
@@ -26,6 +27,9 @@ SYNCHROTRON_DEGREE = 0.75
 
 TICKS: Colour = (0.35, 1.0, 0.95)
 _DARK: Colour = (0.02, 0.05, 0.08)
+_ONLY_ORDER = {"direct": 0, "first_ring": 1, "second_ring": 2}
+_SAMPLES_A_SIGMA, _SAMPLES_IN_MOTION = 6.0, 2.5  # of a beam: light is then right to 2 % and 7 % of the brightest
+_FINEST = 4  # samples to a tick, of a narrow beam
 _LEAST_SHARE = 1e-4  # of the brightest polarized light: ticks of less are left out
 _NUDGE = 1e-5  # of a direction: what is seen beside it tells how a tick lies on the picture
 _LENGTH = 0.85  # of the longest tick, in distances between them
@@ -65,7 +69,7 @@ def why_not(plan: Plan) -> str:
 
 
 def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"]) -> Stokes:
-    """What comes from local `directions` (N, 3) of the observer's tetrad, of all orders that the plan keeps; where `why_not` is empty."""
+    """What comes from local `directions` (N, 3) of the observer's tetrad, of all orders that are kept and shown; where `why_not` is empty."""
     total = np.zeros((3, len(directions)))
     passes = np.ones(len(directions))
     still = np.arange(len(directions))  # rays that have neither fallen in nor escaped
@@ -75,7 +79,7 @@ def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"])
         shines = (r >= inner) & (r <= plan.disk_outer)
         met_here = still[shines]
         still = still[(r > 0.0) & np.isfinite(r)]
-        if len(met_here):
+        if len(met_here) and _ONLY_ORDER.get(plan.scene.disk.orders_shown, order) == order:
             total[:, met_here] += passes[met_here] * _of_crossing(plan, observer, directions[met_here], r[shines], order)
             if plan.scene.disk.compositing == "opacity":
                 passes[met_here] *= 1.0 - plan.scene.disk.opacity
@@ -133,14 +137,17 @@ def directions_at(observer: Observer, scene: Scene, aspect: float, places: Float
     return np.stack([-np.ones_like(right), down, right], axis=-1) @ observer.look.T
 
 
-def ticks(scene: Scene, aspect: float) -> Labels:
+def ticks(scene: Scene, aspect: float, *, moving: bool = False) -> Labels:
     """Ticks along the polarization over a picture of `scene` whose width is `aspect` heights, as long as the fourth root of the polarized light; or a note
     why there are none.
+
+    Args:
+        moving: for a picture that the next one replaces; through a beam they are then worked out from fewer rays.
 
     Raises:
         SceneError, ValueError: the scene cannot be drawn; the text says why.
     """
-    return _ticks(shape_of(scene), aspect)
+    return _ticks(shape_of(scene), aspect, _SAMPLES_IN_MOTION if moving and scene.post.beam else _SAMPLES_A_SIGMA)
 
 
 def shape_of(scene: Scene) -> Scene:
@@ -148,17 +155,17 @@ def shape_of(scene: Scene) -> Scene:
     disk, bare = scene.disk, Scene()
     kept = {
         name: getattr(disk, name)
-        for name in ("enabled", "inner_radius", "outer_radius", "orbit", "temperature_law", "beaming_exponent", "compositing", "opacity")
+        for name in ("enabled", "inner_radius", "outer_radius", "orbit", "temperature_law", "beaming_exponent", "compositing", "opacity", "orders_shown")
     }
-    camera = replace(scene.camera, azimuth_deg=0.0)
-    return replace(
-        bare, hole=scene.hole, camera=camera, rays=scene.rays, disk=replace(bare.disk, **kept), polarization=scene.polarization, things=scene.things,
-        media=scene.media,
+    made = replace(
+        bare, hole=scene.hole, camera=replace(scene.camera, azimuth_deg=0.0), rays=scene.rays, disk=replace(bare.disk, **kept), things=scene.things,
+        media=scene.media, polarization=scene.polarization,
     )  # fmt: skip
+    return replace(made, source=scene.source, post=replace(bare.post, beam=True, beam_uas=scene.post.beam_uas)) if scene.post.beam else made
 
 
 @lru_cache(maxsize=4)
-def _ticks(scene: Scene, aspect: float) -> Labels:
+def _ticks(scene: Scene, aspect: float, samples: float) -> Labels:
     plan = make_plan(scene)
     if why := why_not(plan):
         return Labels(note=why, note_line=1)  # below that of labels
@@ -167,7 +174,7 @@ def _ticks(scene: Scene, aspect: float) -> Labels:
     x, y = np.meshgrid((np.arange(columns) + 0.5) / columns * aspect, (np.arange(rows) + 0.5) / rows)
     places = np.stack([x.ravel(), y.ravel()], axis=-1)
     directions = directions_at(observer, scene, aspect, places)
-    found = stokes(plan, observer, directions)
+    found = _through_beam(plan, observer, aspect, x[0], y[:, 0], samples) if scene.post.beam else stokes(plan, observer, directions)
     light = found.polarized
     shown = light > _LEAST_SHARE * light.max(initial=0.0)
     half = 0.5 * _LENGTH / rows * (light[shown] / light.max(initial=1e-300)) ** 0.25
@@ -176,3 +183,25 @@ def _ticks(scene: Scene, aspect: float) -> Labels:
     step *= (half / np.linalg.norm(step, axis=-1))[:, None]
     ends = np.stack([places[shown] - step, places[shown] + step, np.full_like(step, np.nan)], axis=1).reshape(-1, 2)
     return Labels(curves=(Curve(ends, _DARK, 3.4), Curve(ends, TICKS, 1.7)))
+
+
+def _through_beam(
+    plan: Plan, observer: Observer, aspect: float, right: Float[np.ndarray, " columns"], down: Float[np.ndarray, " rows"], samples: float
+) -> Stokes:
+    """The light at the crossings of columns `right` and rows `down` through the scene's beam: each of I, Q, U is a mean over a grid, of `samples` to its σ."""
+    scene = plan.scene
+    sigma = sigma_px(scene, 1)
+    rows = int(np.clip(np.ceil(samples / sigma), len(down), _FINEST * len(down)))
+    columns = max(round(rows * aspect), 1)
+    x, y = (np.arange(columns) + 0.5) / columns * aspect, (np.arange(rows) + 0.5) / rows
+    places = np.stack([np.tile(x, rows), np.repeat(y, columns)], axis=-1)
+    fine = stokes(plan, observer, directions_at(observer, scene, aspect, places))
+    sideways, upwards = _weights(right, x, sigma), _weights(down, y, sigma)
+    return Stokes(*((upwards @ part.reshape(rows, columns) @ sideways.T).ravel() for part in (fine.i, fine.q, fine.u)))
+
+
+def _weights(at: Float[np.ndarray, " n"], samples: Float[np.ndarray, " m"], sigma: float) -> Float[np.ndarray, "n m"]:
+    """A Gaussian's at `samples`, equally spaced, about each of `at`, of a total of 1 where none is beyond the edge; there is no light."""
+    spacing = samples[1] - samples[0] if len(samples) > 1 else 1.0
+    width = max(sigma, 0.5 * spacing)
+    return spacing / (width * np.sqrt(2.0 * np.pi)) * np.exp(-0.5 * ((at[:, None] - samples) / width) ** 2)

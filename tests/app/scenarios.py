@@ -495,7 +495,7 @@ def values_under_the_mouse(hands: Hands) -> None:
 def ticks_of_polarization(hands: Hands) -> None:
     """They lie over the picture and over no view, are those of the scene that is shown, and are worked out once while it rests."""
     asked, ticks = [], polarized_disk.ticks
-    polarized_disk.ticks = lambda scene, aspect: asked.append((scene, ticks(scene, aspect))) or asked[-1][1]
+    polarized_disk.ticks = lambda scene, aspect, moving: asked.append((scene, ticks(scene, aspect, moving=moving))) or asked[-1][1]
     try:
         hands.context.yield_(3)
         assert not asked

@@ -111,6 +111,25 @@ def test_m87_is_brighter_in_the_south(renderer) -> None:
     assert 150.0 <= found.orientation_deg <= 200.0 and found.asymmetry > 0.1
 
 
+@pytest.mark.parametrize("field, sign", [("toroidal", 1.0), ("radial", -1.0)])
+def test_beta_2_tells_fields_apart(renderer, field: str, sign: float) -> None:
+    """0.75 of all light is polarized; a beam of the ring's half mixes some of it away. 0.12: the disk is seen from 17°, and its matter moves."""
+    values = {"polarization.field_vertical": 0.0, f"polarization.field_{field}": 1.0}
+    scene = presets.load(["m87_eht"], values)
+    found = ring.measure(renderer, scene, 0.0, (240, 240))
+    assert found.sharp_beta_2 is not None and found.blurred_beta_2 is not None
+    assert sign * found.sharp_beta_2.real == pytest.approx(0.7, abs=0.12) and abs(found.sharp_beta_2.imag) < 0.25
+    assert 0.3 < abs(found.blurred_beta_2) < abs(found.sharp_beta_2)
+    assert ring.text(found, scene).count("β₂") == 2
+
+
+def test_where_polarization_is_not_known_the_rest_is_told(renderer) -> None:
+    scene = presets.load(["m87_eht"], {"rays.model": "post_newtonian"})
+    found = ring.measure(renderer, scene, 0.0, (200, 200))
+    assert found.sharp is not None and found.sharp_beta_2 is None
+    assert "β₂" not in ring.text(found, scene)
+
+
 def test_neither_height_nor_shape_of_the_picture_changes_the_ring(renderer) -> None:
     """By more than a fiftieth of the beam."""
     scene = presets.load(["m87_eht"])
