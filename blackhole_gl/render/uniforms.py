@@ -133,7 +133,7 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         plan_step_length=plan.step_length,
         plan_step_angle=plan.step_angle,
         plan_max_steps=plan.max_steps,
-        **_declared(scene, of_rays=True),
+        **{number.name: number.made(number.arguments(scene)) for number in _numbers(True)},
     )
 
 
@@ -154,12 +154,8 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
         disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
         hole_spin_complement=1.0 - abs(plan.space_time.spin),
         plan_medium_step=plan.scene.rays.medium_step,
-        **_declared(scene, of_rays=False),
+        **{number.name: number.at(scene, time) for number in _numbers(False)},
     )
-
-
-def _declared(scene: Scene, *, of_rays: bool) -> dict[str, object]:
-    return {number.name: number.made(number.arguments(scene)) for number in _numbers(of_rays)}
 
 
 def scene_values(plan: Plan) -> dict[str, object]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import importlib
 import inspect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, Literal
 
 from .headers import CatalogueError
 from .schema import nearest_key
+
+TIME = "time"
+"""What `of` calls the scene time in r_s/c, among keys of a scene: for numbers that no ray depends on."""
 
 HOME = "blackhole_gl."
 """Modules that headers may name begin so: what a shader file names is run, and shader files are passed on."""
@@ -92,9 +95,19 @@ class Table(Made):
 
 @dataclass(frozen=True)
 class Number(Made):
-    """A number of every frame, in a uniform block; `make` gives a float, or as many as `type` has."""
+    """A number of every frame, in a uniform block; `make` gives a float, or as many as `type` has. Among the keys in `of` may be `TIME`."""
 
     type: Literal["float", "int", "vec2", "vec4", "mat4"] = "float"
+
+    def at(self, scene: Any, time: float) -> Any:
+        """Its value at scene time `time` (r_s/c).
+
+        Raises:
+            CatalogueError: as `arguments` and `made`.
+        """
+        timeless = replace(self, of=tuple(key for key in self.of if key != TIME)).arguments(scene)
+        values = iter(timeless)
+        return self.made(tuple(time if key == TIME else next(values) for key in self.of))
 
 
 @cache

@@ -85,6 +85,33 @@ def test_laws_where_their_peaks_are_known():
     assert at("page_thorne", 8.0, r_in=8.0) == 1.0
 
 
+@pytest.mark.parametrize("spin, orbit", [(0.0, "prograde"), (0.9, "prograde"), (0.6, "retrograde")])
+def test_a_torque_at_the_isco_adds_its_work_to_the_light(spin, orbit):
+    """Efficiency, 2 ∫ 2πr F E dr over the mass that falls in: 1 − E_ISCO, and what the torque adds; light that falls back in counts."""
+    a = abs(spin) if orbit == "prograde" else -abs(spin)
+    inner = float(relativity.isco_radius(spin, orbit))
+
+    def efficiency(torque):
+        def light(y):  # r = inner/y², in M
+            r = 2.0 * inner / y**2
+            energy = (1.0 - 2.0 / r + a * r**-1.5) / np.sqrt(1.0 - 3.0 / r + 2.0 * a * r**-1.5)
+            flux = 3.0 / (8.0 * np.pi) * disk_profile.page_thorne_flux(0.5 * r, spin, orbit, torque)
+            return 4.0 * np.pi * r * flux * energy * 4.0 * inner / y**3
+        return integrate.quad(light, 0.0, 1.0, epsabs=1e-11, epsrel=1e-9)[0]
+
+    at_isco = np.sqrt(1.0 - 1.0 / (3.0 * inner))
+    assert efficiency(0.0) == pytest.approx(1.0 - at_isco, rel=1e-6)
+    assert efficiency(0.2) == pytest.approx(1.0 - at_isco + 0.2, rel=1e-6)
+    assert disk_profile.page_thorne_flux(inner, spin, orbit, 0.2) > 0.0
+
+
+def test_what_falls_in_goes_on_from_the_isco():
+    made = {"spin": 0.0, "orbit": "prograde", "r_in": 3.0, "r_out": 10.0, "edge": 1.1}
+    hot = disk_profile.temperature("page_thorne", np.array([1.05, 2.9999, 3.0, 3.0001]), torque=0.1, **made)
+    assert hot[0] == 0.0 and hot[1] == pytest.approx(hot[2], rel=1e-3) and hot[3] == pytest.approx(hot[2], rel=1e-3) and hot[2] > 0.1
+    assert np.all(disk_profile.temperature("page_thorne", np.array([1.5, 2.9]), **made) == 0.0), "without a torque there is no heat to take in"
+
+
 def test_errors_name_what_is_wrong():
     with pytest.raises(ValueError, match="tapered"):
         disk_profile.table("warm", 0.0, "prograde", 3.0, 10.0)

@@ -25,6 +25,7 @@ STRENGTHS = {
     "relativistic_lanes": "strength",
     "lensing_flare": "strength",
     "beaming_boost": "strength",
+    "hot_spot": "brightness",
 }
 """Layer → the parameter that takes it away at 0."""
 

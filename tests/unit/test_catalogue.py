@@ -126,7 +126,7 @@ def test_a_layers_switch_stands_among_the_disks_values_and_is_what_its_header_sa
     layers = [f"disk.{key}" for key in catalogue.keys("disk_layer")]
     first = keys.index(layers[0])
     assert keys[first : first + len(layers)] == layers
-    assert keys[first - 1].startswith("disk.") and keys[first + len(layers)].startswith("sky.")
+    assert keys[first - 1].startswith("disk.") and not keys[first + len(layers)].startswith("disk.")
     assert {key for key in layers if fields()[key].default} == {"disk.turbulence"}
     assert {key for key in layers if fields()[key].physical is False} == {"disk.relativistic_lanes", "disk.lensing_flare", "disk.beaming_boost"}
 
