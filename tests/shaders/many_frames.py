@@ -1,11 +1,10 @@
 """Draws frames on and on with other presets, sizes and cameras all the while, and says what they hold in memory.
 
     python tests/shaders/many_frames.py 10000
+    python tests/shaders/many_frames.py 100 4         # every fourth preset alone
 
 Prints a line of JSON at the end of each tenth: frames drawn, resident memory in MB, and the living GL objects of each kind. A process of its own, as
-others would
-leave
-their memory behind. Linux with EGL.
+others would leave their memory behind. Linux with EGL.
 """
 
 import ctypes
@@ -23,7 +22,7 @@ from blackhole_gl.render.frame import Renderer  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 SIZES = ((48, 32), (40, 40), (64, 36), (33, 21))
-FRAMES_A_SCENE = 5
+FRAMES_A_SCENE = 2
 
 
 def resident_mb() -> float:
@@ -61,11 +60,11 @@ class Census:
 
 
 def main() -> None:
-    frames = int(sys.argv[1])
+    frames, every = int(sys.argv[1]), int((*sys.argv, 1)[2])
     ctx = create_headless()
     census = Census(ctx)
     renderer = Renderer(ctx)
-    scenes = [presets.load([info.name]) for info in presets.available()]
+    scenes = [presets.load([info.name]) for info in presets.available()[::every]]
     for frame in range(1, frames + 1):
         turn = frame // FRAMES_A_SCENE
         scene = scenes[turn % len(scenes)].with_values({"camera.azimuth_deg": frame % 360, "camera.inclination_deg": 20.0 + frame % 130})
