@@ -15,7 +15,7 @@ from ..physics.observer import Observer, observe
 from ..physics.polarization import MagneticField, PolarizedLight
 from ..plan import Plan
 from ..plan import plan as make_plan
-from ..scene import Scene, SceneError, met
+from ..scene import Scene, met
 from ..shapes import Float
 from . import labels
 from .beam import sigma_px
@@ -65,6 +65,8 @@ def why_not(plan: Plan) -> str:
         return "No polarization: there is no disk."
     if not met.is_empty(plan.scene):
         return "No polarization: it is that of the disk alone, and the scene has things or media."
+    if plan.scene.polarization.emission == "synchrotron" and _field(plan.scene) == MagneticField(0.0, 0.0, 0.0):
+        return "No polarization: all three parts of the magnetic field are 0; polarization.field_vertical is one of them."
     return labels.without_closed_forms(plan, "polarization")
 
 
@@ -89,10 +91,10 @@ def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"])
 def _of_crossing(plan: Plan, observer: Observer, directions: Float[np.ndarray, "K 3"], r: Float[np.ndarray, " K"], order: int) -> Float[np.ndarray, "3 K"]:
     """I, Q, U of the light that leaves the disk at `r` (r_s)."""
     scene, spin = plan.scene, observer.spin
-    disk, wanted = scene.disk, scene.polarization
+    disk = scene.disk
     light = lensed_circles.light(observer, directions)
     momentum = lensed_circles.crossing_momentum(light, np.array(order), r)
-    is_synchrotron = wanted.emission == "synchrotron"
+    is_synchrotron = scene.polarization.emission == "synchrotron"
     field = _field(scene) if is_synchrotron else MagneticField()
     left = polarization.emitted(r, momentum, polarization.circular_velocity(r, spin, disk.orbit), field.local, spin)
     temperature = _temperature(r, disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer)
@@ -107,10 +109,7 @@ def _of_crossing(plan: Plan, observer: Observer, directions: Float[np.ndarray, "
 
 
 def _field(scene: Scene) -> MagneticField:
-    wanted = scene.polarization
-    if not (wanted.field_vertical or wanted.field_radial or wanted.field_toroidal):
-        raise SceneError("polarization.field_vertical", "got 0, and so are field_radial and field_toroidal; allowed is a field with a direction")
-    return MagneticField(wanted.field_vertical, wanted.field_radial, wanted.field_toroidal)
+    return MagneticField(scene.polarization.field_vertical, scene.polarization.field_radial, scene.polarization.field_toroidal)
 
 
 def _temperature(r: Float[np.ndarray, " K"], law: str, spin: float, orbit: str, inner: float, outer: float) -> Float[np.ndarray, " K"]:

@@ -60,7 +60,10 @@ def test_the_command_writes_an_archive(tmp_path, capsys) -> None:
     assert "beta_2" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("values, word", [({"rays.model": "weak_field"}, "weak_field"), ({"camera.yaw_deg": 180.0}, "arrives")])
+@pytest.mark.parametrize(
+    "values, word",
+    [({"rays.model": "weak_field"}, "weak_field"), ({"polarization.field_vertical": 0.0}, "field_vertical"), ({"camera.yaw_deg": 180.0}, "arrives")],
+)
 def test_a_scene_without_it_is_refused(values: dict, word: str) -> None:
     with pytest.raises(SceneError, match=word):
         polarization_maps.measure(Scene().with_values(values), (24, 16))

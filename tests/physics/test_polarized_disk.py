@@ -13,7 +13,7 @@ from blackhole_gl.physics.observer import local_directions, observe, parallel_ra
 from blackhole_gl.plan import plan
 from blackhole_gl.render import beam, labels, polarized_disk
 from blackhole_gl.render.annotation import annotated
-from blackhole_gl.scene import Scene, SceneError
+from blackhole_gl.scene import Scene
 
 FACE_ON = {"camera.inclination_deg": 0.0, "camera.distance": math.inf, "camera.field_m": 36.0, "polarization.field_vertical": 0.0}
 FIELDS = {"radial": {**FACE_ON, "polarization.field_radial": 1.0}, "toroidal": {**FACE_ON, "polarization.field_toroidal": 1.0}}
@@ -80,7 +80,12 @@ def test_what_ticks_do_not_depend_on_does_not_make_them_anew() -> None:
 
 @pytest.mark.parametrize(
     "values, word",
-    [({"rays.model": "weak_field"}, "weak_field"), ({"disk.enabled": False}, "no disk"), ({"rays.lensing": False}, "flat")],
+    [
+        ({"rays.model": "weak_field"}, "weak_field"),
+        ({"disk.enabled": False}, "no disk"),
+        ({"rays.lensing": False}, "flat"),
+        ({"polarization.field_vertical": 0.0}, "field_vertical"),
+    ],
 )
 def test_where_it_is_not_known_a_note_says_why(values: dict, word: str) -> None:
     found = polarized_disk.ticks(Scene().with_values(values), 1.5)
@@ -94,11 +99,6 @@ def test_ticks_are_drawn_into_saved_pictures_and_over_no_view() -> None:
     drawn = annotated(black, scene, None)
     assert 0.02 < (drawn.max(axis=-1) > 60).mean() < 0.5
     assert not annotated(black, scene.with_values({"polarization.ticks": False}), None).any()
-
-
-def test_no_field_is_no_direction() -> None:
-    with pytest.raises(SceneError, match="polarization.field_vertical"):
-        polarized_disk.ticks(Scene().with_values({"polarization.field_vertical": 0.0}), 1.5)
 
 
 def test_orders_that_are_not_shown_give_no_light() -> None:
