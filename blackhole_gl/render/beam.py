@@ -46,13 +46,14 @@ class BeamPass:
         for number in range(halvings):
             for axis in _AXES:
                 margin = 0 if number else _MARGIN * factor
-                source, size = self._drawn(inputs, "halve", f"halved {number} {axis}", source, size, _halved(size, axis, margin), axis=axis, margin=margin)
+                half = _halved(size, axis, margin)
+                source, size = self._drawn(inputs, "halve", f"halved {number} {axis}", source, half, source_last=_last(size), axis=axis, margin=margin)
         widened = 5.0 * (factor**2 - 1) / 12.0 + (factor**2 / 3.0 if halvings else 0.0)
         own = math.sqrt(sigma**2 - widened) / factor
         for axis in _AXES:
-            source, size = self._drawn(inputs, "blur", f"blurred {axis}", source, size, size, axis=axis, sigma=own)
+            source, size = self._drawn(inputs, "blur", f"blurred {axis}", source, size, source_last=_last(size), axis=axis, sigma=own)
         for axis, larger in zip(_AXES, ((whole[0], size[1]), whole)) if halvings else ():
-            source, size = self._drawn(inputs, "enlarge", f"enlarged {axis}", source, size, larger, axis=axis, factor=float(factor), margin=float(_MARGIN))
+            source, size = self._drawn(inputs, "enlarge", f"enlarged {axis}", source, larger, axis=axis, factor=float(factor), margin=float(_MARGIN))
         return source
 
     def release(self) -> None:
@@ -62,12 +63,12 @@ class BeamPass:
         self._levels = {}
 
     def _drawn(
-        self, inputs: FrameInputs, shader: str, name: str, source: moderngl.Texture, held: tuple[int, int], size: tuple[int, int], **uniforms: object
+        self, inputs: FrameInputs, shader: str, name: str, source: moderngl.Texture, size: tuple[int, int], **uniforms: object
     ) -> tuple[moderngl.Texture, tuple[int, int]]:
-        """The level called `name`, of `size`, drawn from the lower left `held` pixels of `source`."""
+        """The level called `name`, of `size`, drawn from `source`."""
         draw = self._programs.get(f"post/beam_{shader}.frag", inputs)
         draw.sample({"source": source})
-        draw.set(source_last=(held[0] - 1, held[1] - 1), **uniforms)
+        draw.set(**uniforms)
         level = self._level(name, size, size if size == inputs.size else padded(size))
         draw_into(level, draw)
         return level.texture, size
@@ -85,3 +86,8 @@ def _halved(size: tuple[int, int], axis: tuple[int, int], margin: int) -> tuple[
     """`size` with a margin on both sides along `axis`, and half as large there."""
     width, height = (-(-(side + 2 * margin) // 2) if along else side for side, along in zip(size, axis))
     return width, height
+
+
+def _last(size: tuple[int, int]) -> tuple[int, int]:
+    """The last pixel of a picture of `size`."""
+    return size[0] - 1, size[1] - 1
