@@ -190,6 +190,8 @@ def _is_active(item: Field, scene: Scene) -> bool:
         return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
     if item.key.startswith(("hole.", "rays.field_")):
         return is_field(scene) != item.key.startswith("hole.")
+    if item.key == "post.beam_uas":
+        return scene.post.beam
     if item.key == "post.key_light":
         return scene.post.exposure_mode == "automatic"
     parts = item.key.split(".")

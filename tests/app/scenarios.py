@@ -24,7 +24,7 @@ from blackhole_gl.app import compass, mouse_values, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render import labels, polarized_disk
+from blackhole_gl.render import labels, polarized_disk, scale_bar
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -540,6 +540,25 @@ def labels_by_key(hands: Hands) -> None:
         assert not asked and not hands.scene.post.labels
     finally:
         labels.after = after
+
+
+def scale_bar_of_a_real_object(hands: Hands) -> None:
+    """It comes with the labels, as long as the shown picture says, and where the scene stands for no real object there is none."""
+    shown, of = [], scale_bar.of
+    scale_bar.of = lambda scene, aspect: shown.append((aspect, of(scene, aspect))) or shown[-1][1]
+    try:
+        hands.state.change({"source.real": True})
+        hands.context.yield_(3)
+        assert not shown
+        hands.state.change({"post.labels": True})
+        hands.context.yield_(3)
+        view = hands.window.view()
+        assert abs(shown[-1][0] - view.width / view.height) < 1e-6 and shown[-1][1].names
+        hands.state.change({"source.real": False})
+        hands.context.yield_(3)
+        assert not shown[-1][1].names
+    finally:
+        scale_bar.of = of
 
 
 def save_picture(hands: Hands) -> Path:
