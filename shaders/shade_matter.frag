@@ -40,6 +40,20 @@ const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives th
 
 #slots disk_layer
 
+// Brightness of light that leaves the matter at its angle to the plane's normal, over its mean; `g` is the whole frequency shift from there to infinity.
+float limb_factor(float r, DiskLight light, float g) {
+#if DISK_LIMB_DARKENING_NONE
+    return 1.0;
+#else
+    float cosine = min(sqrt(max(light.eta, 0.0)) * g * 0.5 / r, 1.0);  // k_θ over r in M, and over the light's energy there
+#if DISK_LIMB_DARKENING_GREY
+    return 0.5 + 0.75 * cosine;
+#else
+    return (1.0 + 2.06 * cosine) * (3.0 / 7.12);
+#endif
+#endif
+}
+
 // Radiance of the smooth disk. Gravity's part of g acts on colour and brightness, unless "redshift" is off; the Doppler part
 // on each by its own switch (common/disk_orbit.glsl says how g is split). The observer's own shift counts as gravity's.
 vec3 disk_radiance(float r, DiskLight light, bool inbound) {
@@ -49,7 +63,7 @@ vec3 disk_radiance(float r, DiskLight light, bool inbound) {
     float temperature = disk_temperature(r);
     float power = temperature * temperature;
     power *= power * pow(max(colour_shift.x * power_shift, 1e-6), disk_beaming_exponent);
-    float brightness = power * disk_emission_strength * EMISSION_UNIT;
+    float brightness = power * disk_emission_strength * EMISSION_UNIT * limb_factor(r, light, shift.x * shift.y);
 #if DISK_COLOUR_WHITE
     return vec3(brightness);
 #else

@@ -62,20 +62,20 @@ def temperature(
     r = np.asarray(r, dtype=np.float64)
     values = LAWS[law](np.maximum(r, r_in), spin, orbit, r_in, torque)
     values = np.where(r >= r_in, values, values * plunging.heating(np.minimum(r, r_in), spin, orbit))
-    return np.where(r >= (r_in if edge is None else edge), values / _peak(LAWS[law], spin, orbit, r_in, r_out, torque), 0.0)
+    return np.where(r >= (r_in if edge is None else edge), values / peak(law, spin, orbit, r_in, r_out, torque), 0.0)
 
 
-def _peak(law: Law, spin: float, orbit: str, r_in: float, r_out: float, torque: float) -> float:
-    """Highest temperature in [r_in, r_out]: a scan, refined twice about its best sample (the laws have one maximum)."""
+def peak(law: str, spin: float, orbit: str, r_in: float, r_out: float, torque: float) -> float:
+    """Highest temperature in [r_in, r_out], in the law's own units: a scan, refined twice about its best sample (the laws have one maximum)."""
     low, high = r_in, r_out
     for _ in range(3):
         radii = low + (high - low) * np.linspace(0.0, 1.0, _PEAK_SAMPLES) ** 2
-        values = law(radii, spin, orbit, r_in, torque)
+        values = LAWS[law](radii, spin, orbit, r_in, torque)
         best = int(np.argmax(values))
         low, high = radii[max(best - 1, 0)], radii[min(best + 1, _PEAK_SAMPLES - 1)]
-    peak = float(values[best])
+    highest = float(values[best])
     # Where page_thorne's disk lies wholly inside the ISCO nothing shines; the table is then 0, not 0/0.
-    return peak if peak > 0.0 else 1.0
+    return highest if highest > 0.0 else 1.0
 
 
 def table(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from ..scene import Scene, catalogue
+from ..scene import Disk, Scene, catalogue
 from . import relativity
 
 
@@ -64,6 +64,11 @@ class SpaceTime:
     def matter_isco_radius(self, orbit: str) -> float:
         """The same of the space-time whose circular orbits the matter's frequency shift is worked out for."""
         return float(relativity.isco_radius(self.spin, orbit))
+
+    def disk_radii(self, disk: Disk) -> tuple[float, float]:
+        """(inner, outer) edge of the circular orbits of `disk` in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
+        inner = max(disk.inner_radius, self.isco_radius(disk.orbit))
+        return inner, max(disk.outer_radius, inner * 1.0001)
 
     def orbit_sense(self, orbit: str) -> float:
         """+1 where the matter goes counter-clockwise seen from +z, −1 where clockwise."""

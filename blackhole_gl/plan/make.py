@@ -67,7 +67,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     reasons += _what_lens(scene)
     scene, why_still = _plunging(scene, where)
     reasons += why_still
-    inner, outer = _disk_radii(scene, where)
+    inner, outer = where.disk_radii(scene.disk)
     return Plan(
         scene=scene,
         space_time=where,
@@ -312,9 +312,3 @@ def _why_none_falls(scene: Scene, where: SpaceTime) -> str:
     if scene.disk.inner_radius > where.isco_radius(scene.disk.orbit):
         return "the disk is cut off outside of it"
     return ""
-
-
-def _disk_radii(scene: Scene, where: SpaceTime) -> tuple[float, float]:
-    """(inner, outer) edge of the disk in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
-    inner = max(scene.disk.inner_radius, where.isco_radius(scene.disk.orbit))
-    return inner, max(scene.disk.outer_radius, inner * 1.0001)

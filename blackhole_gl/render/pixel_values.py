@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import disk_profile, lensed_circles, plunging, relativity
+from ..physics import accretion, disk_profile, lensed_circles, plunging, relativity
 from ..physics.observer import observe
 from ..plan import Plan
 from . import instances
@@ -107,7 +107,7 @@ def _on_disk(plan: Plan, hits: HitArrays, light: lensed_circles.Light) -> OnDisk
         torque=disk.inner_torque,
         edge=plan.disk_edge,
     )
-    seen = disk.temperature_k * float(profile) * (gravity * energy if disk.redshift else 1.0) * (motion if disk.doppler_colour else 1.0)
+    seen = accretion.hottest(plan.scene) * float(profile) * (gravity * energy if disk.redshift else 1.0) * (motion if disk.doppler_colour else 1.0)
     azimuth = math.atan2(float(hits.crossing[order, 1]), float(hits.crossing[order, 0]))
     return OnDisk(order, radius, azimuth, gravity * motion * energy, seen)
 

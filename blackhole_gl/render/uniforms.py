@@ -11,7 +11,7 @@ from functools import cache
 
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
-from ..physics import observer, plunging, shear
+from ..physics import accretion, observer, plunging, shear
 from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
@@ -159,9 +159,10 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
 
 
 def scene_values(plan: Plan) -> dict[str, object]:
-    """Values of `scene_block`. The spin is that of the space-time: 0 where the model has none. Infinite distances are given as 0."""
+    """Values of `scene_block`. The spin is that of the space-time: 0 where the model has none; infinite distances are given as 0."""
     values: dict[str, object] = {name: plan.scene.get(key) for key, name in _number_names()}
     values["hole_spin"] = plan.space_time.spin
+    values["disk_temperature_k"] = accretion.hottest(plan.scene)
     if math.isinf(plan.scene.camera.distance):
         values["camera_distance"] = 0.0
     return values

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from ..physics import accretion
 from ..scene import Scene
 
 Colour = tuple[float, float, float]  # sRGB, 0…1
@@ -22,7 +23,7 @@ DARK: Colour = (0.10, 0.10, 0.11)
 SLATE: Colour = (0.16, 0.22, 0.32)
 BROWN: Colour = (0.40, 0.28, 0.14)
 
-_ROUND = tuple(digit * 10.0**power for power in range(6) for digit in (1.0, 2.0, 5.0))
+_ROUND = tuple(digit * 10.0**power for power in range(10) for digit in (1.0, 2.0, 5.0))
 
 # Ends of the scale of temperatures, of the disk's own highest one: cold rims recede, and what comes near is seen hotter than it is.
 _OF_THE_HOTTEST = (0.25, 1.6)
@@ -129,7 +130,7 @@ def view_of(scene: Scene, steps: Ends | None = None) -> View | None:
         low, high = steps or (1.0, float(scene.rays.max_steps))
         return View("Steps of a ray", Scale(low, high, "", True, False, _round_numbers(low, high)), (("unresolved", MAGENTA),), True)
     if scene.post.view == "temperature":
-        low, high = (share * scene.disk.temperature_k for share in _OF_THE_HOTTEST)
+        low, high = (share * accretion.hottest(scene) for share in _OF_THE_HOTTEST)
         return View("Temperature of the disk's light", Scale(low, high, "K", True, False, _round_numbers(low, high)), (("no disk", GREY),), True)
     return _VIEWS.get(scene.post.view)
 

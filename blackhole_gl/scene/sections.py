@@ -160,7 +160,17 @@ class Disk:
         0.0, 0.0, 1.0, "", "Torque at the innermost stable orbit, as what it adds to the share of infalling mass that is turned into light. For page_thorne.",
     )
     temperature_law: str = choice("page_thorne", ("page_thorne", "shakura_sunyaev", "tapered"), "Temperature against radius.", physical="page_thorne")
-    temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter.")
+    temperature_of: str = choice(
+        "chosen", ("chosen", "accretion"),
+        "The disk's highest temperature: chosen, or that of Page and Thorne's disk round a hole of the source's mass, by its accretion rate.",
+    )
+    temperature_k: float = number(4500.0, 1000.0, 40000.0, "K", "Highest temperature in the disk, seen by an observer moving with the matter, where chosen.")
+    accretion_rate: float = number(0.1, 1e-6, 10.0, "L_Edd", "Mass that falls in per time, as the light that it makes over Eddington's luminosity.")
+    colour_hardening: float = number(1.7, 1.0, 3.0, "×", "Temperature of the light's colour over that of its flux, where it follows from accretion.")
+    limb_darkening: str = choice(
+        "none", ("none", "grey", "scattering"),
+        "Brightness by the angle at which light leaves the matter: the same, that of a grey atmosphere (2 + 3 cos), or of one that scatters (1 + 2.06 cos).",
+    )
     frequency_shift: str = choice(
         "exact", ("exact", "s0", "s1"),
         "The g-factor, energy received over energy sent out: exact, or by an older viewer's formula, that of the orbital-plane renderer (s0) or of "
