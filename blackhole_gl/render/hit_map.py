@@ -254,7 +254,7 @@ class HitMap:
         self._bind_tables(rays)
         self._key, self.generation = None, next(_GENERATIONS)
         self._make_targets((width, height), hit_texels.textures(plan.orders, plan.meetings))
-        momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.MOMENTA)]
+        momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.momenta_textures(plan.meetings))]
         target = self._ctx.framebuffer([*self.textures, *momenta])
         target.use()
         rays.draw()

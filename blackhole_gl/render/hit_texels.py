@@ -14,8 +14,10 @@ Array = np.ndarray
 MOST_CROSSINGS = 3
 """Crossings of the disk's plane that a map can keep."""
 
-MOMENTA = 2
-"""Textures of the crossings' momenta, which listed rays leave after those of `textures`."""
+
+def momenta_textures(meetings: int) -> int:
+    """Textures of the crossings' momenta, which listed rays leave after those of `textures`: GL 3.3 has eight targets at once, and `meetings` may fill them."""
+    return 2 if meetings < 2 else 0
 
 
 def textures(orders: int, meetings: int = 0) -> int:
@@ -104,6 +106,8 @@ def met_of(texels: Float[Array, "*rays 4"]) -> Int[Array, "*rays 3"]:
 
 
 def momenta(texels: Sequence[Float[Array, "*rays 4"]], crossing: Float[Array, "*rays 3 2"]) -> Float[Array, "*rays 3 2"]:
-    """`HitArrays.momentum` (…, 3, 2) from the texels (…, 4) of `MOMENTA` textures and the crossings (…, 3, 2)."""
+    """`HitArrays.momentum` (…, 3, 2) from the texels (…, 4) of `momenta_textures` and the crossings (…, 3, 2); NaN where there are none."""
+    if not texels:
+        return np.full_like(crossing, np.nan)
     found = np.stack([texels[0][..., :2], texels[0][..., 2:], texels[1][..., :2]], axis=-2)
     return np.where(np.any(crossing != 0.0, axis=-1, keepdims=True), found, np.float32(np.nan))

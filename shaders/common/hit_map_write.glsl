@@ -35,10 +35,11 @@ layout(location = FREE_TARGET_1) out vec4 way0_out;
 layout(location = FREE_TARGET_2) out vec4 met1_out;
 layout(location = FREE_TARGET_3) out vec4 way1_out;
 #endif
-#if RAYS_LISTED && MEETINGS
+// With two meetings, in a scene with media, there is no room for momenta.
+#if RAYS_LISTED && MEETINGS == 1
 layout(location = FREE_TARGET_2) out vec4 momenta0_out;
 layout(location = FREE_TARGET_3) out vec4 momenta1_out;
-#elif RAYS_LISTED
+#elif RAYS_LISTED && MEETINGS == 0
 layout(location = FREE_TARGET_0) out vec4 momenta0_out;
 layout(location = FREE_TARGET_1) out vec4 momenta1_out;
 #endif
@@ -61,7 +62,7 @@ Hits only_finite(Hits hits) {
     return failed;
 }
 
-#if RAYS_LISTED
+#if RAYS_LISTED && MEETINGS < 2
 // (k_r, k_θ) in z = 0 at `point`; zero without a crossing.
 vec2 covariant_momentum(vec2 point, Momentum momentum) {
     if (point == vec2(0.0)) return vec2(0.0);
@@ -103,7 +104,7 @@ void store_hits(Hits traced) {
 #if NO_MEETINGS > 1
     met1_out = way1_out = vec4(0.0);
 #endif
-#if RAYS_LISTED
+#if RAYS_LISTED && MEETINGS < 2
     momenta0_out = vec4(covariant_momentum(hits.crossing[0], hits.momentum[0]), covariant_momentum(hits.crossing[1], hits.momentum[1]));
     momenta1_out = vec4(covariant_momentum(hits.crossing[2], hits.momentum[2]), vec2(0.0));
 #endif
