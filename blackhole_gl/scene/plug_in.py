@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
@@ -141,6 +141,8 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         for entry in ("reach", "centre", "increasing"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
         _refuse_disordered_defaults(traits.increasing, known, place)
+    if isinstance(traits, MediumTraits) and traits.phenomenological:
+        known = MappingProxyType({name: replace(item, art=True) for name, item in known.items()})
     path = file.relative_to(root).as_posix()
     return PlugIn(
         file.stem,

@@ -160,10 +160,12 @@ class MediumTraits(MetTraits):
     Attributes:
         bolometric: whether its light is that of all frequencies; else of the one that is seen.
         changes: whether its light changes with time on a ray that stays the same.
+        phenomenological: whether it is made for its looks and solves no equations of matter; its parameters are then told as art.
     """
 
     bolometric: bool = True
     changes: bool = False
+    phenomenological: bool = False
 
 
 @dataclass(frozen=True)
