@@ -79,6 +79,7 @@ SHOTS = (
     Shot("knot_behind_a_hole", ("knot_behind_a_hole",)),
     Shot("polish_doughnut", ("polish_doughnut",)),
     Shot("cloudy_slab", ("cloudy_slab",), time=24.0),
+    Shot("jet", ("jet",)),
 )
 
 

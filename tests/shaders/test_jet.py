@@ -85,7 +85,6 @@ CASES = {
 HEAD = """#version 330 core
 #defines
 #blocks
-uniform vec2 hole_w_factors;
 #include "common/hits.glsl"
 #include "common/matter.glsl"
 """
