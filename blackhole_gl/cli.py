@@ -7,7 +7,7 @@ import math
 import re
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TextIO
 
 import typer
 
@@ -28,7 +28,7 @@ app = typer.Typer(
 
 _COMMANDS = ("view", "render", "trace", "profile", "polarization", "ring", "plan", "bench", "check", "presets")
 _SUITES = ("frames", "weiskopf")
-_FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file")  # options that no value follows
+_FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux")  # options that no value follows
 
 Named = Annotated[
     list[str] | None,
@@ -131,7 +131,9 @@ def view(
 
 @app.command()
 def render(
-    out: Annotated[Path, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.")],
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.", show_default=False)
+    ] = None,
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
@@ -141,14 +143,21 @@ def render(
     supersample: Annotated[
         int | None, typer.Option(min=1, max=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.", show_default=False)
     ] = None,
+    flux: Annotated[bool, typer.Option("--flux", help="Print its flux, and what finer steps and pixels change in it. --out may then be left out.")] = False,
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
     preset = [*(names or ()), *(preset or ())]
     scene = _scene(preset, set_, any_file)
-    refuse_unwritable(out, (".png",), "a PNG picture")
+    if out is None and not flux:
+        raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
+    if out is not None:
+        refuse_unwritable(out, (".png",), "a PNG picture")
     _refuse_unmet(scene, set_)
-    _render(scene, _size(size), _time(time, preset), out, supersample or scene.rays.in_stills, backend)
+    if out is not None:
+        _render(scene, _size(size), _time(time, preset), out, supersample or scene.rays.in_stills, backend)
+    if flux:
+        _print_flux(scene, _size(size), _time(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
 
 
 @app.command()
@@ -438,3 +447,11 @@ def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples
         renderer.render_still(scene, time, size, samples, progress)
     pixels = annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
     png.write(out, pixels, preset_files.picture_text(scene, time, out.absolute().parent))
+
+
+def _print_flux(scene: Scene, size: tuple[int, int], time: float, backend: str, file: TextIO) -> None:
+    from .measure import flux
+
+    with Progress("measuring") as progress:
+        found = flux.measured(_renderer(backend), scene, time, size, progress)
+    print(found, file=file)

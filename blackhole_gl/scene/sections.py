@@ -114,7 +114,7 @@ class Rays:
         400.0, 1.0, 1e5, "r_s", "Way within a field after which a ray is held there for good: it is black. Rays that a field lets out end in the sky.",
     )
     medium_step: float = number(
-        0.25, 0.01, 1.0, "×", "Longest step in a medium, of the length on which the medium changes: halving it divides the error by about four.",
+        0.5, 0.01, 1.0, "×", "Longest step in a medium, of the length on which the medium changes: halving it divides the error by up to sixteen.",
     )
     early_end: bool = switch(
         True, "End a ray's march where it has met something opaque, escapes or is captured. Off, for measurements: it is marched on as far as all steps lead.",

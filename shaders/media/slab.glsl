@@ -68,7 +68,7 @@ Matter medium_slab_matter(int i, Sight sight) {
     float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i), height = x.z / medium_slab_height(i);
     float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
     float density = max(1.0 - share, 0.0) * exp(-0.5 * height * height), rate = slab_rate(out_from_axis);
-    float width = max(max(length(sight.right), length(sight.up)), 0.5 * plan_medium_step * medium_slab_scale(i, x));
+    float width = max(max(length(sight.right), length(sight.up)), 0.25 * plan_medium_step * medium_slab_scale(i, x));
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
     uvec2 seeds = uvec2(shear_seed.xy) * 16u;
     float turned = medium_slab_speed(i) * rate;
