@@ -47,32 +47,43 @@ float slab_rate(float out_from_axis) {
     return (hole_spin < 0.0 ? -2.0 : 2.0) / (x * sqrt(x) + abs(hole_spin));
 }
 
-// Density of the clouds of one pattern of that age, mean 1. `turned`: by how much a pattern of age 1 has turned; `width`: what is finer than that is not there.
-float slab_clouds(int i, vec3 x, float turned, float width, float age, uint seed) {
-    vec2 turn = cos_sin(-turned * age);
-    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned) * age), first = medium_slab_frequency(i);
+// What the clouds of a slab are; read once, as a parameter is a texel.
+struct Clouds {
+    int octaves;
+    float contrast, first, grain;  // `first`: frequency of the coarsest octave
+};
+
+// Density of the clouds of one pattern, mean 1, turned by `turned` radians; what is finer than `width` is not there.
+float slab_clouds(Clouds clouds, vec3 x, float turned, float width, uint seed) {
+    vec2 turn = cos_sin(-turned);
     vec3 forwards = vec3(rotate(x.xy, turn), x.z), backwards = vec3(rotate(x.xy, vec2(turn.x, -turn.y)), x.z);
-    for (int octave = 1; octave <= 5; ++octave) {
-        if (octave > medium_slab_octaves(i)) break;
-        float frequency = float(octave * octave) * first;
-        float kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
-        vec3 place = octave % 2 == 1 ? forwards : backwards;
-        density *= max(1.0 + medium_slab_contrast(i) * kept * solid_noise(frequency * place, seed + uint(octave)), 0.0);
+    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned)), octave = 1.0;
+    if (clouds.octaves > 0) do {
+        float frequency = octave * octave * clouds.first, kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
+        density *= max(1.0 + clouds.contrast * kept * solid_noise(frequency * forwards, seed + uint(octave)), 0.0);
+        vec3 swapped = forwards;
+        forwards = backwards;
+        backwards = swapped;
+        octave += 1.0;
+    } while (octave <= float(clouds.octaves));
+    if (clouds.grain > 0.0) {
+        float fine = GRAIN_FREQUENCY * clouds.first, kept = clamp(1.6 - 2.0 * fine * wound, 0.0, 1.0);
+        density *= 1.0 + 0.15 * clouds.grain * kept * solid_noise(fine * vec3(rotate(x.xy, turn), x.z), seed + 13u);
     }
-    float kept = clamp(1.6 - 2.0 * GRAIN_FREQUENCY * first * wound, 0.0, 1.0);
-    return density * (1.0 + 0.15 * medium_slab_grain(i) * kept * solid_noise(GRAIN_FREQUENCY * first * forwards, seed + 13u));
+    return density;
 }
 
 Matter medium_slab_matter(int i, Sight sight) {
     vec3 x = sight.place;
     float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i), height = x.z / medium_slab_height(i);
+    Clouds shape = Clouds(medium_slab_octaves(i), medium_slab_contrast(i), medium_slab_frequency(i), medium_slab_grain(i));
     float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
     float density = max(1.0 - share, 0.0) * exp(-0.5 * height * height), rate = slab_rate(out_from_axis);
     float width = max(max(length(sight.right), length(sight.up)), 0.25 * plan_medium_step * medium_slab_scale(i, x));
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
     uvec2 seeds = uvec2(shear_seed.xy) * 16u;
-    float turned = medium_slab_speed(i) * rate;
-    vec2 clouds = vec2(slab_clouds(i, x, turned, width, shear_phase.x, seeds.x), slab_clouds(i, x, turned, width, shear_phase.y, seeds.y));
+    vec2 turned = medium_slab_speed(i) * rate * shear_phase.xy;
+    vec2 clouds = vec2(slab_clouds(shape, x, turned.x, width, seeds.x), slab_clouds(shape, x, turned.y, width, seeds.y));
     density *= max(1.0 + dot(weights, clouds - 1.0), 0.0);
 
     float shift = emitted_shift(sight, rate * vec3(-x.y, x.x, 0.0)), warmth = inner / max(out_from_axis, 1e-6);

@@ -24,7 +24,6 @@ DENSITY = """#version 330 core
 #defines
 #blocks
 uniform sampler2D places;
-uniform vec2 hole_w_factors;
 uniform vec3 shape;
 uniform int orbit;
 #define medium_torus_inner_radius(i) shape.x
