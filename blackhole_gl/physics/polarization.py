@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..shapes import Float
+from . import plunging
 from .observer import Observer
 from .relativity import orbital_frequency
 
@@ -123,6 +124,14 @@ def circular_velocity(r: Float[Array, "*at"], spin: float, orbit: str) -> Float[
     zamo = _Zamo(spin, 2.0 * r, 0.0, 1.0)
     around = (0.5 * orbital_frequency(r, spin, orbit) - zamo.omega) * zamo.ring / zamo.lapse
     return np.stack([np.zeros_like(around), np.zeros_like(around), around], axis=-1)
+
+
+def falling_velocity(r: Float[Array, "*at"], spin: float, orbit: str) -> Float[Array, "*at 3"]:
+    """The same of matter that falls in from the innermost stable orbit; NaN outside of it."""
+    matter, zamo = plunging.four_velocity(r, spin, orbit), _Zamo(spin, 2.0 * r, 0.0, 1.0)
+    around = (matter.around / matter.time - zamo.omega) * zamo.ring / zamo.lapse
+    inwards = matter.radial / matter.time * np.sqrt(zamo.sigma / zamo.delta) / zamo.lapse
+    return np.stack([inwards, np.zeros_like(around), around], axis=-1)
 
 
 def emitted(

@@ -75,10 +75,9 @@ def stokes(plan: Plan, observer: Observer, directions: Float[np.ndarray, "N 3"])
     total = np.zeros((3, len(directions)))
     passes = np.ones(len(directions))
     still = np.arange(len(directions))  # rays that have neither fallen in nor escaped
-    inner = max(plan.disk_inner, plan.space_time.isco_radius(plan.scene.disk.orbit))
     for order in range(plan.orders):
         r = lensed_circles.crossing_radius(lensed_circles.light(observer, directions[still]), np.array(order))
-        shines = (r >= inner) & (r <= plan.disk_outer)
+        shines = (r >= plan.disk_edge) & (r <= plan.disk_outer)
         met_here = still[shines]
         still = still[(r > 0.0) & np.isfinite(r)]
         if len(met_here) and _ONLY_ORDER.get(plan.scene.disk.orders_shown, order) == order:
@@ -96,8 +95,8 @@ def _of_crossing(plan: Plan, observer: Observer, directions: Float[np.ndarray, "
     momentum = lensed_circles.crossing_momentum(light, np.array(order), r)
     is_synchrotron = scene.polarization.emission == "synchrotron"
     field = _field(scene) if is_synchrotron else MagneticField()
-    left = polarization.emitted(r, momentum, polarization.circular_velocity(r, spin, disk.orbit), field.local, spin)
-    temperature = _temperature(r, disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer)
+    left = polarization.emitted(r, momentum, _velocity(plan, r), field.local, spin)
+    temperature = _temperature(plan, r)
     shift = left.g / light.energy
     bright, degree = _emission(left, is_synchrotron)
     i = temperature**4 * shift**disk.beaming_exponent * bright
@@ -112,10 +111,20 @@ def _field(scene: Scene) -> MagneticField:
     return MagneticField(scene.polarization.field_vertical, scene.polarization.field_radial, scene.polarization.field_toroidal)
 
 
-def _temperature(r: Float[np.ndarray, " K"], law: str, spin: float, orbit: str, inner: float, outer: float) -> Float[np.ndarray, " K"]:
+def _velocity(plan: Plan, r: Float[np.ndarray, " K"]) -> Float[np.ndarray, "K 3"]:
+    """Of the matter at `r` (r_s), in the frame of zero angular momentum: on circular orbits, or falling in from the innermost stable one."""
+    spin, orbit = plan.space_time.spin, plan.scene.disk.orbit
+    inside = r < plan.space_time.isco_radius(orbit)
+    found = polarization.circular_velocity(np.where(inside, plan.disk_outer, r), spin, orbit)
+    found[inside] = polarization.falling_velocity(r[inside], spin, orbit)
+    return found
+
+
+def _temperature(plan: Plan, r: Float[np.ndarray, " K"]) -> Float[np.ndarray, " K"]:
     """T/T_peak at `r` (r_s) by the table that pictures of the disk use."""
-    table = _table(law, spin, orbit, inner, outer)
-    way = np.sqrt(np.clip((r - inner) / (outer - inner), 0.0, 1.0))
+    disk, edge, outer = plan.scene.disk, plan.disk_edge, plan.disk_outer
+    table = _table(disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, outer, torque=disk.inner_torque, edge=edge)
+    way = np.sqrt(np.clip((r - edge) / (outer - edge), 0.0, 1.0))
     return np.interp(way, (np.arange(len(table)) + 0.5) / len(table), table)
 
 
@@ -154,7 +163,10 @@ def shape_of(scene: Scene) -> Scene:
     disk, bare = scene.disk, Scene()
     kept = {
         name: getattr(disk, name)
-        for name in ("enabled", "inner_radius", "outer_radius", "orbit", "temperature_law", "beaming_exponent", "compositing", "opacity", "orders_shown")
+        for name in (
+            "enabled", "inner_radius", "outer_radius", "orbit", "plunging", "inner_torque", "temperature_law", "beaming_exponent", "compositing", "opacity",
+            "orders_shown",
+        )  # fmt: skip
     }
     made = replace(
         bare, hole=scene.hole, camera=replace(scene.camera, azimuth_deg=0.0), rays=scene.rays, disk=replace(bare.disk, **kept), things=scene.things,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.physics import lensed_circles, polarization, relativity
+from blackhole_gl.physics import lensed_circles, plunging, polarization, relativity
 from blackhole_gl.physics.observer import Observer, local_directions, observe, parallel_rays
 from blackhole_gl.physics.polarization import MagneticField
 from blackhole_gl.reference import transport
@@ -104,3 +104,19 @@ def test_the_angle_turns_with_the_camera() -> None:
 def test_a_field_without_a_direction_is_refused() -> None:
     with pytest.raises(ValueError, match="no direction"):
         _ = MagneticField(0.0, 0.0, 0.0).local
+
+
+@pytest.mark.parametrize("spin, orbit", [(0.0, "prograde"), (0.9, "prograde"), (0.5, "retrograde"), (-0.7, "prograde")])
+def test_matter_that_falls_in_shifts_light_as_its_closed_form_has_it(spin: float, orbit: str) -> None:
+    """1e-9: both are closed forms. At the innermost stable orbit it moves as matter on circular orbits does."""
+    isco = float(relativity.isco_radius(spin, orbit))
+    r = np.linspace(1.1 * float(relativity.horizon_radius(spin)), 0.999 * isco, 12)
+    lam, eta, m = np.linspace(-2.0, 1.5, 12), np.full(12, 1.0), 2.0 * r
+    delta = m * (m - 2.0) + spin**2
+    k_r = np.sqrt((m * m + spin**2 - spin * lam) ** 2 - delta * (eta + (lam - spin) ** 2)) / delta
+    momentum = np.stack([k_r, -np.sqrt(eta), lam], axis=-1)
+    assert np.isfinite(k_r).all()
+    left = polarization.emitted(r, momentum, polarization.falling_velocity(r, spin, orbit), MagneticField().local, spin)
+    np.testing.assert_allclose(left.g, plunging.emission_shift(r, lam, k_r, spin, orbit), rtol=1e-9)
+    at = np.array([isco])
+    np.testing.assert_allclose(polarization.falling_velocity(at, spin, orbit), polarization.circular_velocity(at, spin, orbit), atol=1e-7)

@@ -128,3 +128,15 @@ def test_ticks_of_a_picture_through_a_beam_are_those_of_light_through_it() -> No
             fine = ndimage.map_coordinates(getattr(maps.stokes, name), places, order=1).ravel()
             np.testing.assert_allclose(getattr(found, name), fine, atol=error * maps.stokes.i.max())
     assert segments(scene, 1.0).shape != segments(scene.with_values({"post.beam": False}), 1.0).shape
+
+
+def test_matter_that_falls_in_is_polarized_too() -> None:
+    """Its light begins where that of circular orbits ends, and the shadow's middle stays dark."""
+    scene = Scene().with_values({"camera.inclination_deg": 30.0, "disk.plunging": True, "disk.inner_torque": 0.1, "polarization.field_radial": 1.0})
+    rays = local_directions(np.linspace(0.01, 0.3, 400), np.full(400, 0.5 * np.pi))
+    with_it, without = (polarized_disk.stokes(plan(made), observe(made), rays) for made in (scene, scene.with_values({"disk.plunging": False})))
+    more = (with_it.i > 0.0) & (without.i == 0.0)
+    assert more.sum() > 5 and np.isfinite(with_it.angle).all()
+    assert with_it.polarized[more].max() > 0.1 * with_it.polarized.max()
+    outside = without.i > 0.0
+    np.testing.assert_allclose(with_it.angle[outside][-50:], without.angle[outside][-50:], atol=1e-9)
