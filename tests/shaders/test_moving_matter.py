@@ -16,7 +16,6 @@ COUNT = 2048
 TEXT = """#version 330 core
 #defines
 #blocks
-uniform vec2 hole_w_factors;
 #include "common/hits.glsl"
 #include "common/matter.glsl"
 uniform sampler2D cases;
