@@ -38,6 +38,7 @@ def test_every_key_of_the_help_does_what_it_says(layout, display, tmp_path):
     assert found == wanted | {"closed": True}
 
 
+@pytest.mark.slow
 def test_modifiers_count_that_are_let_go_in_the_frame_in_which_a_key_is_struck(display, tmp_path):
     """SHIFT+F12 was F12, and CTRL+S nothing, where a frame was as long as a hand is quick."""
     environment = display | {"BLACKHOLE_GL_CONFIG_DIR": str(tmp_path)}

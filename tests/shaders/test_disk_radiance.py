@@ -17,7 +17,7 @@ OUTER = 10.0
 BOUND = 1e-3
 
 
-@pytest.mark.parametrize("spin, inclination", [(0.9, 70.0), (0.0, 80.0)])
+@pytest.mark.parametrize("spin, inclination", [(0.9, 70.0), pytest.param(0.0, 80.0, marks=pytest.mark.slow)])
 def test_light_of_the_smooth_disk(renderer: Renderer, spin: float, inclination: float) -> None:
     scene = presets.load(
         ["kerr", "reference", "smooth"],
