@@ -9,46 +9,36 @@ import sys
 from pathlib import Path
 from typing import Annotated, TextIO
 
-import typer
-
+from . import VERSION
+from .arguments import Argument, Option, Program
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 
-app = typer.Typer(
-    name="blackhole-gl",
-    help="Black holes in real time, with an error bar. Without a command: view.",
-    no_args_is_help=False,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-
-_COMMANDS = ("view", "render", "trace", "profile", "polarization", "ring", "plan", "bench", "check", "presets")
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux")  # options that no value follows
 
 Named = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[PRESET]...", help="Presets, as with --preset; those given with --preset are layered over them.", show_default=False),
+    Argument(metavar="[PRESET]...", help="Presets, as with --preset; those given with --preset are layered over them."),
 ]
 Presets = Annotated[
     list[str] | None,
-    typer.Option(
+    Option(
         "--preset",
         "-p",
         help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.",
-        show_default="kerr",
+        default="kerr",
     ),
 ]
 Settings = Annotated[
     list[str] | None,
-    typer.Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
+    Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
 ]
-AnyFile = Annotated[bool, typer.Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
-Backend = Annotated[str, typer.Option(help="How to get a GL context without a window: auto, egl or osmesa.", envvar="BLACKHOLE_GL_BACKEND")]
+AnyFile = Annotated[bool, Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
+Backend = Annotated[str, Option(help="How to get a GL context without a window: auto, egl or osmesa.", variable="BLACKHOLE_GL_BACKEND")]
 
 
 def main() -> None:
@@ -58,7 +48,14 @@ def main() -> None:
 
     streams.prepare()
     try:
-        app(_with_command(sys.argv[1:]))
+        run(sys.argv[1:])
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        print("Aborted.", file=sys.stderr)
+        sys.exit(130)
+    except BrokenPipeError:
+        streams.give_up_output()
+        sys.exit(1)
     except OSError as error:
         print(f"blackhole-gl: {error.filename}: {error.strerror}" if error.filename else f"blackhole-gl: {error}", file=sys.stderr)
         sys.exit(2)
@@ -67,13 +64,26 @@ def main() -> None:
         sys.exit(2)
 
 
+def run(words: list[str]) -> None:
+    """Does what `words` ask for.
+
+    Raises:
+        SystemExit: they are no command, or ask for help; or a check failed.
+        SceneError, ShaderError, ContextError, ValueError, OSError: what the command cannot do, in one sentence.
+    """
+    command, values = PROGRAM.parsed(_with_command(words))
+    for mistake in catalogue.mistakes():
+        print(f"blackhole-gl: left out: {mistake}", file=sys.stderr)
+    command(**values)
+
+
 def _with_command(arguments: list[str]) -> list[str]:
     """`arguments` with the command in front: one that options stand before, or view where none is named."""
     value_follows = False
     for place, argument in enumerate(arguments):
         if argument in ("-h", "--help", "--version") and place == 0:
             return arguments
-        if argument in _COMMANDS and not value_follows:
+        if argument in COMMANDS and not value_follows:
             return [argument, *arguments[:place], *arguments[place + 1 :]]
         if not argument.startswith("-"):
             if not value_follows:
@@ -84,29 +94,13 @@ def _with_command(arguments: list[str]) -> list[str]:
     return ["view", *arguments]
 
 
-def _show_version(wanted: bool) -> None:
-    if wanted:
-        print(f"blackhole-gl {preset_files.version()}")
-        raise typer.Exit
-
-
-@app.callback()
-def default(
-    version: Annotated[bool, typer.Option("--version", is_eager=True, callback=_show_version, help="Say which version this is.")] = False,
-) -> None:
-    """Black holes in real time, with an error bar. Without a command: view."""
-    for mistake in catalogue.mistakes():
-        print(f"blackhole-gl: left out: {mistake}", file=sys.stderr)
-
-
-@app.command()
 def view(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[str | None, typer.Option(help="Width × height of the window.", show_default="that of the last one, or 1280x800")] = None,
-    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c to begin at. When not given: a saved scene's, or 0.", show_default=False)] = None,
+    size: Annotated[str | None, Option(help="Width × height of the window.", default="that of the last one, or 1280x800")] = None,
+    time: Annotated[float | None, Option(help="Scene time in r_s/c to begin at. When not given: a saved scene's, or 0.")] = None,
 ) -> None:
     """Open the viewer. Without a display: write a picture and say where."""
     from .self_check import display_present
@@ -129,21 +123,20 @@ def view(
     window.run(scene, preset_names=preset, any_file=any_file, time=begins, size=_size(size) if size else None)
 
 
-@app.command()
 def render(
     out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.", show_default=False)
+        Path | None, Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.")
     ] = None,
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "1280x720",
-    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
+    size: Annotated[str, Option(help="Width × height in pixels.")] = "1280x720",
+    time: Annotated[float | None, Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.")] = None,
     supersample: Annotated[
-        int | None, typer.Option(min=1, max=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.", show_default=False)
+        int | None, Option(least=1, most=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.")
     ] = None,
-    flux: Annotated[bool, typer.Option("--flux", help="Print its flux, and what finer steps and pixels change in it. --out may then be left out.")] = False,
+    flux: Annotated[bool, Option("--flux", help="Print its flux, and what finer steps and pixels change in it. --out may then be left out.")] = False,
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
@@ -160,15 +153,14 @@ def render(
         _print_flux(scene, _size(size), _time(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
 
 
-@app.command()
 def trace(
-    rays: Annotated[Path, typer.Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
-    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a ray. - is standard output.")],
+    rays: Annotated[Path, Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a ray. - is standard output.")],
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    float64: Annotated[bool, typer.Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
+    float64: Annotated[bool, Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
     backend: Backend = "auto",
 ) -> None:
     """Trace listed rays through the shader that pictures use.
@@ -190,15 +182,14 @@ def trace(
     listed_rays.write(out, found, 17 if float64 else 9, listed)
 
 
-@app.command()
 def profile(
-    out: Annotated[Path, typer.Option("--out", "-o", help="The CSV to write, a row a bin of g = E_infinity/E_emitter. - is standard output.")],
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a bin of g = E_infinity/E_emitter. - is standard output.")],
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    emissivity: Annotated[float, typer.Option(min=-5.0, max=10.0, help="q of the line's power, r^-q.")] = 3.0,
-    bins: Annotated[int, typer.Option(min=10, max=2000, help="Bins between the least g and the largest.")] = 200,
+    emissivity: Annotated[float, Option(least=-5.0, most=10.0, help="q of the line's power, r^-q.")] = 3.0,
+    bins: Annotated[int, Option(least=10, most=2000, help="Bins between the least g and the largest.")] = 200,
     backend: Backend = "auto",
 ) -> None:
     """Write the profile of a narrow line from the whole disk, of each order of image, and say what share of the light each has."""
@@ -217,14 +208,13 @@ def profile(
     print(f"mean g       {found.mean:.4f}", file=sys.stderr)
 
 
-@app.command()
 def polarization(
-    out: Annotated[Path, typer.Option("--out", "-o", help="The NumPy archive to write: I, Q and U of each pixel, top row first. - is standard output.")],
+    out: Annotated[Path, Option("--out", "-o", help="The NumPy archive to write: I, Q and U of each pixel, top row first. - is standard output.")],
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[str, typer.Option(help="Width × height in pixels.")] = "640x360",
+    size: Annotated[str, Option(help="Width × height in pixels.")] = "640x360",
 ) -> None:
     """Write how the light of the disk is polarized, pixel by pixel, and say how much of it is, along what, and beta_2."""
     from .measure import polarization_maps
@@ -240,14 +230,13 @@ def polarization(
     print(f"beta_2       {abs(found.beta_2):.4f}, phase {math.degrees(cmath.phase(found.beta_2)):.2f}°", file=sys.stderr)
 
 
-@app.command()
 def ring(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[str, typer.Option(help="Width × height in pixels of the picture that is measured.")] = "600x600",
-    time: Annotated[float | None, typer.Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.", show_default=False)] = None,
+    size: Annotated[str, Option(help="Width × height in pixels of the picture that is measured.")] = "600x600",
+    time: Annotated[float | None, Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.")] = None,
     backend: Backend = "auto",
 ) -> None:
     """Measure the ring in a picture: diameter, width, asymmetry and beta_2, of the light as it comes and through the scene's beam."""
@@ -262,13 +251,12 @@ def ring(
     print(ring_measure.text(found, scene), end="")
 
 
-@app.command()
 def plan(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    measure: Annotated[bool, typer.Option("--measure", help="Measure error and cost here and now beside the predictions.")] = False,
+    measure: Annotated[bool, Option("--measure", help="Measure error and cost here and now beside the predictions.")] = False,
     backend: Backend = "auto",
 ) -> None:
     """Say how a scene's rays are traced, why, and what error and cost to expect. A tolerance that cannot be met is refused."""
@@ -300,17 +288,16 @@ def plan(
     _refuse_unmet(scene, set_)
 
 
-@app.command()
 def bench(
     names: Named = None,
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    size: Annotated[list[str] | None, typer.Option(help="Width × height in pixels. Repeatable.", show_default="640x360 to 3840x2160; 800x600")] = None,
-    rounds: Annotated[int, typer.Option(min=1, max=100, help="Frames of each kind; medians are taken.")] = 5,
-    suite: Annotated[str, typer.Option(help="frames, or weiskopf: spheres in four ray models with each acceleration, as measured in 2004.")] = "frames",
-    json: Annotated[Path | None, typer.Option(help="Also write everything as JSON.", show_default=False)] = None,
-    euler: Annotated[bool, typer.Option(help="Also time 300 Euler steps, the yardstick E.")] = True,
+    size: Annotated[list[str] | None, Option(help="Width × height in pixels. Repeatable.", default="640x360 to 3840x2160; 800x600")] = None,
+    rounds: Annotated[int, Option(least=1, most=100, help="Frames of each kind; medians are taken.")] = 5,
+    suite: Annotated[str, Option(help="frames, or weiskopf: spheres in four ray models with each acceleration, as measured in 2004.")] = "frames",
+    json: Annotated[Path | None, Option(help="Also write everything as JSON.")] = None,
+    euler: Annotated[bool, Option(help="Also time 300 Euler steps, the yardstick E.")] = True,
     backend: Backend = "auto",
 ) -> None:
     """Time whole frames and their parts on this machine: methods, still and moving, over picture sizes."""
@@ -339,7 +326,6 @@ def bench(
         write_whole(json, (dumps(found.as_dict(), indent=1, ensure_ascii=False) + "\n").encode())
 
 
-@app.command()
 def check() -> None:
     """Say what works on this machine, and the line that mends what does not. Exit status 1 when anything does not."""
     from . import self_check
@@ -350,12 +336,11 @@ def check() -> None:
         print(f"{mark}  {finding.name:14} {finding.text}", flush=True)
         all_well &= finding.works is not False
     if not all_well:
-        raise typer.Exit(1)
+        sys.exit(1)
 
 
-@app.command()
 def presets(
-    name: Annotated[str | None, typer.Argument(help="Show this preset's values as TOML.")] = None,
+    name: Annotated[str | None, Argument(help="Show this preset's values as TOML.")] = None,
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
@@ -455,3 +440,12 @@ def _print_flux(scene: Scene, size: tuple[int, int], time: float, backend: str, 
     with Progress("measuring") as progress:
         found = flux.measured(_renderer(backend), scene, time, size, progress)
     print(found, file=file)
+
+
+PROGRAM = Program(
+    "blackhole-gl",
+    "Black holes in real time, with an error bar. Without a command: view.",
+    VERSION,
+    (view, render, trace, profile, polarization, ring, plan, bench, check, presets),
+)
+COMMANDS = tuple(command.__name__ for command in PROGRAM.commands)

@@ -10,8 +10,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-import tomlkit
-
+from ..output import toml
 from ..output.files import write_whole
 from ..resources import user_config_dir
 from ..scene import Scene, presets
@@ -95,11 +94,8 @@ def save(kept: Kept) -> None:
     Raises:
         OSError: it cannot be written.
     """
-    document = tomlkit.document()
-    document.add(tomlkit.comment("What the window keeps; written when it closes."))
-    for name, value in asdict(kept).items():
-        document.add(name, list(value) if isinstance(value, tuple) else value)
-    write_whole(file(), tomlkit.dumps(document).encode("utf-8"))
+    lines = ["# What the window keeps; written when it closes.\n", *(toml.line(name, value) for name, value in asdict(kept).items())]
+    write_whole(file(), "".join(lines).encode("utf-8"))
 
 
 def save_scene(scene: Scene, time: float) -> None:

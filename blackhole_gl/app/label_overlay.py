@@ -7,7 +7,7 @@ import math
 from imgui_bundle import hello_imgui, imgui
 
 from ..render import labels, polarized_disk, scale_bar
-from ..render.annotation import pieces
+from ..render.sheet import pieces
 from ..render.views import Colour
 from ..scene import Scene
 from . import theme

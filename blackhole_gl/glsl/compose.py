@@ -15,10 +15,11 @@ moderngl's own ``ctx.includes`` is not recursive, has no once-guard and loses th
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TypeAlias
 
@@ -120,12 +121,11 @@ def compose(
     """
     reader = _Reader(roots, chosen or {})
     lines = reader.lines(path)
-    mentioned = frozenset[str]().union(*(names(text) for text, _ in lines))
-    used = {name: value for name, value in (switches or {}).items() if name in mentioned}
+    used = {name: value for name, value in (switches or {}).items() if name in reader.mentioned}
     words = live_words((text for text, _ in lines), used)
     out: list[Line] = []
     for text, place in lines:
-        match text.strip():
+        match text.strip() if "#" in text else "":
             case "#defines":
                 out.extend((f"#define {name} {value}", place) for name, value in used.items())
             case "#blocks":
@@ -140,10 +140,15 @@ def compose(
 
 
 class _Reader:
-    """Carries out the directives that bring in other files."""
+    """Carries out the directives that bring in other files.
+
+    Attributes:
+        mentioned: the identifiers of all lines so far.
+    """
 
     def __init__(self, roots: Sequence[Path], chosen: Mapping[str, Sequence[str]]):
         self._roots, self._chosen = roots, chosen
+        self.mentioned: set[str] = set()
         self._seen: set[str] = set()
         self._called: dict[str, str] = {}  # in lines for each: function → the plug-in that has to have it, by its file
 
@@ -156,6 +161,7 @@ class _Reader:
         lines: list[Line] = []
         for part in _parts(_source(root / path, path, shown, asked_at), shown):
             lines += part.lines
+            self.mentioned |= part.names
             if part.directive == "include":
                 name = re.fullmatch(r'"([^"]+)"\s*(//.*)?', part.rest)
                 if name is None:
@@ -196,12 +202,14 @@ class _Reader:
                 continue
             key = Path(plug_in).stem
             self._called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
-            lines.append((template.strip().replace("$key", key).replace("$KEY", key.upper()), place))
+            text = template.strip().replace("$key", key).replace("$KEY", key.upper())
+            self.mentioned |= names(text)
+            lines.append((text, place))
         return lines
 
     def _found(self, path: str) -> tuple[Path, str]:
         """The root of the file at `path`, and what errors call the file."""
-        root = next((root for root in self._roots if (root / path).is_file()), self._roots[0])
+        root = next((root for root in self._roots if os.path.isfile(os.path.join(root, path))), self._roots[0])
         return root, path if root == self._roots[0] else str(root / path)
 
 
@@ -214,6 +222,11 @@ class _Part:
     rest: str = ""
     place: tuple[str, int] = ("", 0)
 
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The identifiers of its lines."""
+        return frozenset[str]().union(*(names(text) for text, _ in self.lines))
+
 
 @lru_cache(maxsize=256)
 def _parts(source: str, shown: str) -> tuple[_Part, ...]:
@@ -222,7 +235,7 @@ def _parts(source: str, shown: str) -> tuple[_Part, ...]:
     lines: list[Line] = []
     in_comment = False
     for number, text in enumerate(source.splitlines(), start=1):
-        match = None if in_comment else _DIRECTIVE.match(text)
+        match = None if in_comment or "#" not in text else _DIRECTIVE.match(text)
         in_comment = _comment_open(text, in_comment)
         if match is None or match[1] in ("defines", "blocks", "instances"):
             lines.append((text, (shown, number)))
@@ -249,8 +262,10 @@ def _comment_open(text: str, is_open: bool) -> bool:
             if end < 0:
                 return True
             text, is_open = text[end + 2 :], False
+        elif "/*" not in text:
+            return False
         else:
             start, line_comment = text.find("/*"), text.find("//")
-            if start < 0 or 0 <= line_comment < start:
+            if 0 <= line_comment < start:
                 return False
             text, is_open = text[start + 2 :], True

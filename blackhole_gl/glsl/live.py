@@ -81,7 +81,9 @@ class _Line:
 def _read(line: str) -> _Line:
     """`line`, read once: programs share most of their lines."""
     code = line.partition("//")[0]
-    conditional, define, head = (pattern.match(code) for pattern in (_CONDITIONAL, _DEFINE, _FUNCTION))
+    directive = code.lstrip().startswith("#")
+    conditional, define = (_CONDITIONAL.match(code), _DEFINE.match(code)) if directive else (None, None)
+    head = _FUNCTION.match(code) if code[:1].isalpha() else None
     return _Line(
         code,
         (conditional[1], conditional[2]) if conditional else None,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -69,6 +68,8 @@ def refuse_unwritable(path: str | Path, suffixes: Sequence[str], what: str) -> N
         raise ValueError(f"{path}: got the suffix {target.suffix}; {what} is written, and allowed is {' or '.join(suffixes)}")
     folder = next(parent for parent in target.parents if parent.exists())
     try:
-        tempfile.TemporaryFile(dir=folder).close()
+        probe = folder / f".{os.getpid()}.part"
+        probe.touch()
+        probe.unlink()
     except OSError as error:
         raise type(error)(error.errno, f"its folder cannot be written to: {error.strerror}", str(path)) from None

@@ -60,7 +60,10 @@ def _context(**settings: Any) -> moderngl.Context:
 
 
 def _egl() -> moderngl.Context:
-    return _context(standalone=True, backend="egl")
+    try:
+        return _context(standalone=True, backend="egl", libgl="libGL.so.1", libegl="libEGL.so.1")  # by name: to look for them runs ldconfig, twice
+    except Exception:  # elsewhere they have other names
+        return _context(standalone=True, backend="egl")
 
 
 class _GlfwLoader:

@@ -6,14 +6,17 @@ import io
 import warnings
 from collections import OrderedDict
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageOps
 
 from ..scene import files
 from ..scene.schema import SceneError
 from . import stamps
 from .stamps import Stamp, Unusable
+
+if TYPE_CHECKING:
+    from PIL import Image  # imported when there is a picture: most scenes have none, and it takes a fiftieth of the time of a first frame
 
 MOST_BYTES = 64 << 20
 MOST_PIXELS = 1 << 26
@@ -73,6 +76,8 @@ def _error(key: str, path: Path, reason: str) -> SceneError:
 
 def _decoded(path: Path, most_aside: int) -> Image.Image:
     """The picture upright, RGBA with 8 bits, reduced where a side is longer than `most_aside`."""
+    from PIL import Image, ImageOps
+
     data = stamps.content(path, MOST_BYTES)
     try:
         with warnings.catch_warnings(action="ignore"):  # of what it refuses itself, and of what it makes do with
@@ -93,6 +98,8 @@ def _decoded(path: Path, most_aside: int) -> Image.Image:
 
 
 def _rgba(image: Image.Image) -> Image.Image:
+    from PIL import Image
+
     if image.mode.startswith("I;16"):
         return Image.fromarray((np.asarray(image) >> 8).astype(np.uint8)).convert("RGBA")
     return image.convert("RGBA") if image.mode in ("L", "LA", "La", "P", "PA", "1", "RGB", "RGBA", "RGBa") else image.convert("RGB").convert("RGBA")

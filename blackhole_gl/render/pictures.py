@@ -7,7 +7,6 @@ from functools import lru_cache
 
 import moderngl
 import numpy as np
-from PIL import Image
 
 from ..scene import Scene, met
 from ..scene.files import PICTURES
@@ -152,5 +151,7 @@ def _resized(picture: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     """`picture` at `size` (width, height), float16; resampled in linear light, channel by channel, as Pillow has no float pictures of several."""
     if (picture.shape[1], picture.shape[0]) == size:
         return picture
+    from PIL import Image
+
     channels = [Image.fromarray(np.ascontiguousarray(picture[..., k], np.float32)).resize(size, Image.Resampling.BILINEAR) for k in range(4)]
     return np.stack([np.asarray(channel) for channel in channels], axis=-1).astype(np.float16)

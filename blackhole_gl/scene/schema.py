@@ -6,7 +6,6 @@ the preset loader and the documentation tables all read it.
 
 from __future__ import annotations
 
-import difflib
 import math
 import reprlib
 import tomllib
@@ -216,17 +215,23 @@ def number_of(value: Value) -> float:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """What to add to an error: the known word most like `word`; empty when none is alike."""
-    near = difflib.get_close_matches(word, list(known), n=1)
+    near = _close(word, list(known), 0.6)
     return f"; did you mean {near[0]}?" if near else ""
 
 
 def nearest_key(key: str, known: Iterable[str]) -> str | None:
     """The known key most like `key`, or None when none is alike."""
     known = list(known)
-    near = difflib.get_close_matches(key, known, n=1, cutoff=0.5)
+    near = _close(key, known, 0.5)
     if near:
         return near[0]
     last = key.rsplit(".", 1)[-1]
     tails = {k.rsplit(".", 1)[-1]: k for k in known}
-    near = difflib.get_close_matches(last, tails, n=1, cutoff=0.6)
+    near = _close(last, list(tails), 0.6)
     return tails[near[0]] if near else None
+
+
+def _close(word: str, known: list[str], cutoff: float) -> list[str]:
+    import difflib  # only in a mistake
+
+    return difflib.get_close_matches(word, known, n=1, cutoff=cutoff)

@@ -1,4 +1,4 @@
-"""Rendering without a window loads neither the panel's library nor the window's."""
+"""Rendering without a window loads neither the panel's library nor the window's, and nothing that the picture does not need."""
 
 from __future__ import annotations
 
@@ -26,4 +26,20 @@ def test_headless_frame_loads_no_window_library(tmp_path: Path) -> None:
     found = json.loads(run.stdout.splitlines()[-1])
     assert found["shape"] == [18, 32, 3]
     assert found["brightest"] > 0
-    assert not {"imgui_bundle", "glfw", "blackhole_gl.app", "typer", "jaxtyping"} & set(found["modules"])
+    assert not {"imgui_bundle", "glfw", "blackhole_gl.app", "jaxtyping"} & set(found["modules"])
+
+
+# Each takes a hundredth of the time of a first picture, or more.
+DEAR = {"PIL", "pydantic", "typer", "click", "tomlkit", "rich", "scipy", "pyrr", "trimesh", "importlib.metadata", "difflib", "blackhole_gl.render.labels"}
+
+
+def test_a_command_loads_nothing_dear_that_its_picture_does_not_need(tmp_path: Path) -> None:
+    look = """
+import json, sys
+from blackhole_gl import cli
+cli.run(["render", "kerr", "draft", "--size", "32x18", "-o", "x.png"])
+print(json.dumps(sorted(sys.modules)))
+"""
+    run = subprocess.run([sys.executable, "-c", look], cwd=tmp_path, capture_output=True, text=True, timeout=240)
+    assert run.returncode == 0, run.stderr
+    assert not DEAR & set(json.loads(run.stdout.splitlines()[-1]))

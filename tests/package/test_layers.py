@@ -13,6 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "blackhole_gl"
 # Lowest first. A part imports from rows below its own and from itself, never sideways or upwards.
 LAYERS = (
     {"resources", "shapes", "text_files", "worker"},
+    {"arguments"},
     {"output"},
     {"scene"},
     {"physics"},
@@ -42,7 +43,6 @@ CONFINED = {
     "glfw": ("app", "render/context.py"),
     "jaxtyping": ("shapes.py",),
     "matplotlib": (),
-    "typer": ("cli",),
     "platformdirs": ("resources.py",),
 }
 TEST_AND_TOOL_PACKAGES = {"scipy", "colour", "pytest", "hypothesis"}

@@ -11,8 +11,9 @@ from PIL import Image
 
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.render import labels
-from blackhole_gl.render.annotation import annotated, pieces
+from blackhole_gl.render.annotation import annotated
 from blackhole_gl.render.frame import Renderer
+from blackhole_gl.render.sheet import pieces
 from blackhole_gl.render.views import view_of
 from blackhole_gl.scene import Scene, presets
 

@@ -20,7 +20,6 @@ given and what is allowed; but a key that is not known, as a newer version's fil
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -35,11 +34,11 @@ from ..schema import SceneError
 from . import paths
 from .comparison import departures, differing
 from .reading import GROUPS, Preset, PresetError, parse, unknown_key
-from .writing import dumps, picture_text, save, version
+from .writing import dumps, picture_text, save
 
 __all__ = [
     "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "departures", "differing", "dumps", "from_png",
-    "last_timed", "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir", "version",
+    "last_timed", "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir",
 ]
 
 USER_GROUP = "user"
@@ -102,6 +101,8 @@ def _find(name: str) -> tuple[Path, str]:
         if name and group and read(path).formerly == name:
             return path, group
     names = sorted({known for known, _, _ in named})
+    import difflib  # only in a mistake
+
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.4)
     hint = f"; did you mean {near[0]}?" if near else "."
     raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in .toml or .png.")

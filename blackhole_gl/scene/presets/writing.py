@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
-from importlib import metadata
+from collections.abc import Iterable, Mapping, Set
 from pathlib import Path
 
-import tomlkit
-
-from ...output import files
+from ... import VERSION
+from ...output import files, toml
 from .. import Scene, catalogue, fields, instances
 from ..catalogue import KIND, SWITCH
 from ..schema import Field, Value
@@ -41,7 +39,7 @@ def picture_text(scene: Scene, time: float, folder: Path | None = None, *, pause
 
     What plug-ins of the user's have that the picture does not use is left out: it is to open where there are none.
     """
-    return _dump(scene, True, {**_moment(time, paused), "version": version()}, folder, _idle(scene))
+    return _dump(scene, True, {**_moment(time, paused), "version": VERSION}, folder, _idle(scene))
 
 
 def _moment(time: float | None, paused: bool) -> dict[str, str | float | bool]:
@@ -79,43 +77,23 @@ def save(
     return path
 
 
-def version() -> str:
-    """This program's."""
-    try:
-        return metadata.version("blackhole-gl")
-    except metadata.PackageNotFoundError:  # run from a checkout that is not installed
-        return "unknown"
-
-
 def _dump(scene: Scene, full: bool, about: Mapping[str, str | float | bool], folder: Path | None, idle: Set[str] = frozenset()) -> str:
-    document = tomlkit.document()
-    for name, said in about.items():
-        if said != "":
-            document.add(name, said)
+    parts = ["".join(toml.line(name, said) for name, said in about.items() if said != "")]
     for table, entries in _entries_by_table(scene, full, idle).items():
-        place = document
-        for part in table.split("."):
-            if part not in place:
-                place.add(part, tomlkit.table())
-            place = place[part]
-        for name, item in sorted(entries.items(), key=lambda entry: bool(entry[1].columns)):  # in TOML, what stands below [[path]] belongs to it
+        lines, records = [f"[{table}]\n"], []
+        for name, item in entries.items():
             value = scene.get(item.key)
-            written = _written(item, value if folder is None else paths.relative(item, value, folder))
-            if full and item.unit:
-                written.comment(item.unit)
-            place.add(name, written)
-    return tomlkit.dumps(document)
+            value = value if folder is None else paths.relative(item, value, folder)
+            if item.columns and isinstance(value, tuple) and value:
+                records += [_record(f"{table}.{toml.key(name)}", record) for record in value]
+            else:
+                lines.append(toml.line(name, value, item.unit if full else ""))
+        parts += ["".join(lines), *records]  # what stands below [[path]] belongs to it
+    return "\n".join(part for part in parts if part)
 
 
-def _written(item: Field, value: Value) -> tomlkit.items.Item:
-    if not isinstance(value, tuple):
-        return tomlkit.item(value)
-    if not item.columns or not value:
-        return tomlkit.item(list(value))
-    records = tomlkit.aot()
-    for record in value:
-        records.append(tomlkit.item(dict(record)))
-    return records
+def _record(table: str, record: Iterable[tuple[str, Value]]) -> str:
+    return f"[[{table}]]\n" + "".join(toml.line(name, value) for name, value in dict(record).items())
 
 
 def _idle(scene: Scene) -> frozenset[str]:
