@@ -15,11 +15,11 @@ import numpy as np
 from . import reference
 from .glsl.declared import Fate
 from .output.files import write_whole
-from .physics import observer
+from .physics import observer, tilted_disk
 from .physics.space_time import ray_model, space_time
 from .plan import plan
 from .render.frame import Renderer
-from .scene import Scene, met
+from .scene import Disk, Scene, met
 from .shapes import Float, Int
 from .text_files import TextError, decimal_comma, read_text
 
@@ -145,10 +145,9 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
     if len(rays) == 0:
         return unknown(0)
     hits, shifts, ray_plan = renderer.trace_listed(scene, local_vectors(rays, scene))
-    r = np.hypot(hits.crossing[..., 0].astype(float), hits.crossing[..., 1])
-    phi = np.arctan2(hits.crossing[..., 1].astype(float), hits.crossing[..., 0])
+    r, theta, phi = _spherical(tilted_disk.placed(hits.crossing, ray_plan.scene.disk))
     none = r == 0.0
-    innermost = 0.0 if ray_plan.scene.disk.plunging else ray_plan.space_time.matter_isco_radius(scene.disk.orbit)
+    innermost = 0.0 if ray_plan.scene.disk.plunging else ray_plan.space_time.matter_isco_radius(ray_plan.scene.disk)
     momentum = hits.momenta.astype(float)
     return TracedRays(
         hits.fate,
@@ -159,7 +158,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
         np.where(none, np.nan, phi),
         np.where(none | (r < innermost), np.nan, shifts.astype(float)),
         np.where(scene.rays.orders > 0, hits.lambda_.astype(float), np.nan),
-        np.where(none, np.nan, 0.5 * np.pi),
+        np.where(none, np.nan, theta),
         momentum[..., 0],
         momentum[..., 1],
     )
@@ -176,7 +175,7 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
         raise RayListError("the float64 reference knows no things and no media: take them out of the scene, or trace by the shader")
     if len(rays) == 0:
         return unknown(0)
-    camera, model = scene.camera, ray_model(scene)
+    camera, model, disk = scene.camera, ray_model(scene), plan(scene, keep_crossings=True).scene.disk
     far = columns(scene) == SCREEN
     parameters: dict[str, Any] = {name: scene.get(key) for name, key in reference.twin_of(model.key).parameters.items()}
     found = reference.trace(
@@ -188,16 +187,34 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
         observer=camera.observer,
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
-        falls=plan(scene, keep_crossings=True).scene.disk.plunging,
+        falls=disk.plunging,
         directions=None if far else local_vectors(rays, scene),
         screen=rays if far else None,
+        planes=[tilted_disk.axes(disk)[2]] if disk.tilt_deg else (),
         **parameters,
     )
     kept = np.arange(_CROSSINGS) < scene.rays.orders
     direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
-    plane = found.equatorial
-    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (plane.r, plane.phi, found.g, plane.theta, plane.k_r, plane.k_theta))
+    plane = found.crossings.of(1) if disk.tilt_deg else found.equatorial
+    g = _tilted_shift(plane, found.lambda_, scene, disk) if disk.tilt_deg else found.g
+    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (plane.r, plane.phi, g, plane.theta, plane.k_r, plane.k_theta))
     return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta)
+
+
+def _spherical(place: Float[np.ndarray, "*points 3"]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """r, θ, φ."""
+    x, y, z = np.moveaxis(place, -1, 0)
+    across = np.hypot(x, y)
+    return np.hypot(across, z), np.arctan2(across, z), np.arctan2(y, x)
+
+
+def _tilted_shift(plane: reference.Crossings, lam: Float[np.ndarray, " N"], scene: Scene, disk: Disk) -> Float[np.ndarray, "N 3"]:
+    """g of the twin's crossings of the tilted disk's plane; NaN inside its innermost orbit."""
+    where = space_time(scene)
+    outward = np.stack([np.sin(plane.theta) * np.cos(plane.phi), np.sin(plane.theta) * np.sin(plane.phi), np.cos(plane.theta)], axis=-1)
+    momentum = np.stack([plane.k_r, plane.k_theta, np.broadcast_to(lam[:, None], plane.r.shape)], axis=-1)
+    gravity, motion = tilted_disk.shift(plane.r[..., None] * outward, momentum, where.spin, disk)
+    return np.where(plane.r >= where.matter_isco_radius(disk), gravity * motion, np.nan)
 
 
 def unknown(count: int) -> TracedRays:

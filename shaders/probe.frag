@@ -18,7 +18,7 @@ void main() {
     float g[3];
     for (int n = 0; n < 3; ++n) {
         float r = length(hits.crossing[n]);
-        g[n] = r > 0.0 ? disk_g(r, light, is_inbound(hits, n)) : 0.0;
+        g[n] = r > 0.0 ? disk_g(r, light_at_crossing(light, hits.crossing[n], is_inbound(hits, n)), is_inbound(hits, n)) : 0.0;
     }
     g_out = vec4(g[0], g[1], g[2], 1.0);
 }

@@ -12,6 +12,7 @@
 #include "common/hit_texels.glsl"
 #include "common/escape_chart.glsl"
 #include "common/node_kinds.glsl"
+#include "common/disk_plane.glsl"
 
 uniform sampler2D hits0;
 #if ORDERS > 0
@@ -70,7 +71,7 @@ uint kind_of_direction(vec2 point, vec4 bend) {
 }
 
 uint kind_of_crossing(vec2 point, vec4 bend) {
-    float away = camera_w > 0.0 ? distance(0.5 / camera_w * camera_n.xyz, vec3(point, 0.0)) : 1.0;
+    float away = camera_w > 0.0 ? distance(0.5 / camera_w * camera_n.xyz, disk_place(point)) : 1.0;
     return ROUGH * interpolation_error(bend).x < refine_tolerance.y * away ? 0u : NODE_BENDS;
 }
 
@@ -97,7 +98,7 @@ uint kinds_of_crossings(vec2 point[5]) {
     for (int i = 0; i < 5; ++i) {
         float r2 = dot(point[i], point[i]);
         bool outside = r2 > margin.x * margin.x;
-        vec3 seen = vec3(point[i], 0.0) - (0.5 / max(camera_w, 1e-20)) * camera_n.xyz;
+        vec3 seen = disk_place(point[i]) - (0.5 / max(camera_w, 1e-20)) * camera_n.xyz;
         uint found = NODE_CROSSES | (outside ? NODE_ABOVE_INNER_MARGIN : 0u) | (r2 >= disk_r_edge * disk_r_edge ? NODE_ABOVE_INNER_EDGE : 0u);
         found |= outside && dot(seen, seen) < far_side * far_side ? NODE_BEFORE_DISK : 0u;
         kinds |= r2 > 0.0 ? found : NODE_MISSES;

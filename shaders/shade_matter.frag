@@ -101,7 +101,7 @@ Light pass_disk(Light light, Crossing crossing, DiskLight sent, bool inbound) {
 
 // The same, in the colour of the crossing's order if orders are tinted.
 Light pass_order(Light light, Hits hits, Crossing crossing, int n, DiskLight sent) {
-    Light after = pass_disk(light, crossing, sent, is_inbound(hits, n));
+    Light after = pass_disk(light, crossing, light_at_crossing(sent, crossing.point, is_inbound(hits, n)), is_inbound(hits, n));
 #if DISK_ORDERS_SHOWN_TINTED
     const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);
     after.gathered = light.gathered + dot(after.gathered - light.gathered, WEIGHTS) * order_tint(hits, crossing.point);

@@ -187,8 +187,9 @@ void main() {
         if (!changes) gains = max(gains + h / 12.0 * (here.gains * there.loses - there.gains * here.loses), 0.0);
         float crossed = 1.0;
 #if ORDERS > 0
-        bool crosses = (here.x.z < 0.0) != (there.x.z < 0.0) && length(there.x) > crossing_r_min;
-        if (crosses) crossed = abs(here.x.z) / max(abs(here.x.z) + abs(there.x.z), 1e-20);
+        vec2 heights = vec2(disk_height(here.x), disk_height(there.x));
+        bool crosses = (heights.x < 0.0) != (heights.y < 0.0) && length(there.x) > crossing_r_min;
+        if (crosses) crossed = abs(heights.x) / max(abs(heights.x) + abs(heights.y), 1e-20);
 #endif
         for (int n = 0; n <= ORDERS; ++n)
             if (n == stretch) light[n] = after_piece(light[n], gains, loses, crossed * h);

@@ -91,7 +91,7 @@ class LinePlot:
         """All that the profile depends on."""
         disk = scene.disk
         return scene.hole, scene.camera, scene.rays, scene.things, scene.media, self._index, disk.enabled, disk.orbit, disk.inner_radius, disk.outer_radius, \
-            disk.compositing, disk.opacity  # fmt: skip
+            disk.tilt_deg, disk.tilt_azimuth_deg, disk.compositing, disk.opacity  # fmt: skip
 
     def _status(self) -> None:
         imgui.set_next_item_width(10.0 * hello_imgui.em_size())

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..physics import relativity
+from ..physics import relativity, tilted_disk
 from ..plan import plan as make_plan
 from ..scene import Scene
 from ..shapes import Float, Int
@@ -54,8 +54,9 @@ def of(scene: Scene) -> PathWorld:
     with_disk = plan.scene.disk.enabled
     shell = () if where.kind == "flat" else _shell(where.horizon_spin, hole.gravity_strength)
     reach = max(_REACH, *(1.5 * float(np.linalg.norm(line, axis=1).max()) for line in shell), 0.0)
-    disk = _annulus(plan.disk_edge, plan.disk_outer) if with_disk else np.zeros((0, 3))
-    edges = (_ring(plan.disk_edge), _ring(plan.disk_outer)) if with_disk else ()
+    axes = tilted_disk.axes(plan.scene.disk)
+    disk = _annulus(plan.disk_edge, plan.disk_outer) @ axes if with_disk else np.zeros((0, 3))
+    edges = (_ring(plan.disk_edge) @ axes, _ring(plan.disk_outer) @ axes) if with_disk else ()
     return PathWorld(where.horizon_radius * size, *_sphere(), shell, disk, edges, reach)
 
 

@@ -56,7 +56,7 @@ class _Truth:
 
 def view_of(scene: Scene) -> tuple[Any, ...]:
     """All of `scene` that the chart of a view depends on: not the method itself, nor how things glow."""
-    return scene.hole, scene.camera, scene.disk.enabled, scene.disk.orbit
+    return scene.hole, scene.camera, scene.disk.enabled, scene.disk.orbit, scene.disk.tilt_deg, scene.disk.tilt_azimuth_deg
 
 
 class Live:

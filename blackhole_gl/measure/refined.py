@@ -46,7 +46,7 @@ def trace(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> TracedRa
     crossing = hits.crossing[y, x].astype(float)
     r = _counted(np.hypot(crossing[..., 0], crossing[..., 1]), _true(chart_scene).crossing_r, scene)
     where, orbit = made.space_time, scene.disk.orbit
-    emitter_r = np.where(r >= where.matter_isco_radius(orbit), r, np.nan)
+    emitter_r = np.where(r >= where.matter_isco_radius(scene.disk), r, np.nan)
     g = relativity.circular_orbit_g(emitter_r, hits.lambda_[y, x][:, None], where.spin, orbit)
     fate = hits.fate[y, x]
     direction = np.where((fate == 1)[:, None], hits.direction[y, x].astype(float), np.nan)

@@ -145,6 +145,6 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
 
 
 def is_charted(scene: Scene) -> bool:
-    """Whether the chart measures `scene`: a hole as it is, and nothing to meet but the disk, as the float64 reference knows no more."""
-    plain = met.is_empty(scene) and scene.sky.model != "picture"  # which a hole bends as it does any sky
+    """Whether the chart measures `scene`: a hole as it is, and nothing to meet but a disk in its equator, as the float64 reference knows no more."""
+    plain = met.is_empty(scene) and not scene.disk.tilt_deg and scene.sky.model != "picture"  # which a hole bends as it does any sky
     return is_physical(scene) and plain and scene.rays.lensing and not is_field(scene)

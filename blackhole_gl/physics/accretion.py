@@ -26,9 +26,9 @@ def hottest(scene: Scene) -> float:
     if disk.temperature_of == "chosen":
         return disk.temperature_k
     inner, outer = where.disk_radii(disk)
-    flux = disk_profile.peak("page_thorne", where.spin, disk.orbit, inner, outer, disk.inner_torque) ** 4
+    flux = disk_profile.peak("page_thorne", where.matter_spin(disk), disk.orbit, inner, outer, disk.inner_torque) ** 4
     radius = SUN_GM * scene.source.mass_suns / LIGHT_SPEED**2
-    rate = disk.accretion_rate * eddington_power(scene.source.mass_suns) / efficiency(where.spin, disk.orbit, disk.inner_torque)
+    rate = disk.accretion_rate * eddington_power(scene.source.mass_suns) / efficiency(where.matter_spin(disk), disk.orbit, disk.inner_torque)
     return disk.colour_hardening * (3.0 / (8.0 * math.pi) * rate * flux / radius**2 / STEFAN_BOLTZMANN) ** 0.25
 
 

@@ -6,6 +6,7 @@ its observers are Schwarzschild's. Flat space has no spin at all, and still a bl
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -54,25 +55,34 @@ class SpaceTime:
         """
         return self.horizon_radius + min(0.01 * self.horizon_radius, 0.5 * (self.prograde_photon_orbit - self.horizon_radius))
 
-    def isco_radius(self, orbit: str) -> float:
-        """Innermost stable circular orbit in r_s, ``prograde`` or ``retrograde``, of the space-time in which light runs.
+    def isco_radius(self, disk: Disk) -> float:
+        """Innermost stable circular orbit of `disk` in r_s, of the space-time in which light runs; tilted, that of the spin along its axis.
 
         With `kerr_like` that is Schwarzschild's, whatever the spin: light and matter of two space-times make no sense together close in.
         """
-        return float(relativity.isco_radius(self.horizon_spin, orbit))
+        return float(relativity.isco_radius(spin_along(self.horizon_spin, disk), disk.orbit))
 
-    def matter_isco_radius(self, orbit: str) -> float:
-        """The same of the space-time whose circular orbits the matter's frequency shift is worked out for."""
-        return float(relativity.isco_radius(self.spin, orbit))
+    def matter_spin(self, disk: Disk) -> float:
+        """a* of the hole whose circular orbits the matter of `disk` goes by, and its temperature."""
+        return spin_along(self.spin, disk)
+
+    def matter_isco_radius(self, disk: Disk) -> float:
+        """`isco_radius` of the space-time whose circular orbits the matter's frequency shift is worked out for."""
+        return float(relativity.isco_radius(self.matter_spin(disk), disk.orbit))
 
     def disk_radii(self, disk: Disk) -> tuple[float, float]:
         """(inner, outer) edge of the circular orbits of `disk` in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
-        inner = max(disk.inner_radius, self.isco_radius(disk.orbit))
+        inner = max(disk.inner_radius, self.isco_radius(disk))
         return inner, max(disk.outer_radius, inner * 1.0001)
 
     def orbit_sense(self, orbit: str) -> float:
-        """+1 where the matter goes counter-clockwise seen from +z, −1 where clockwise."""
+        """+1 where the matter goes counter-clockwise seen from +z, or from where a tilted disk's axis points, −1 where clockwise."""
         return float(relativity.orbit_sense(self.spin, orbit))
+
+
+def spin_along(spin: float, disk: Disk) -> float:
+    """The part of the spin a* along the axis of `disk`."""
+    return spin * math.cos(math.radians(disk.tilt_deg)) if disk.tilt_deg else spin
 
 
 def ray_model(scene: Scene) -> catalogue.PlugIn:

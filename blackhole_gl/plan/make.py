@@ -65,6 +65,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     refine, why_refine = _refines(scene, model, chosen, reach_steps)
     reasons.append(why_refine)
     reasons += _what_lens(scene)
+    scene, why_upright = _tilted(scene, model)
     scene, why_still = _plunging(scene, where)
     reasons += why_still
     inner, outer = where.disk_radii(scene.disk)
@@ -86,9 +87,9 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         reach=reach,
         reach_steps=reach_steps,
         refine_px=refine_px(scene) if refine else 0.0,
-        frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) else WORLD,
+        frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) and not scene.disk.tilt_deg else WORLD,
         reasons=tuple(reasons),
-        warnings=(*_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
+        warnings=(*why_upright, *_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
     )
 
 
@@ -295,6 +296,13 @@ def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn, turns: float = S
     return 3.0 * (legs + turns * turn / photon_sphere) / (scene.rays.step_length * shortest)
 
 
+def _tilted(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:
+    """`scene` with its disk in the equator where its ray model finds no crossings of another plane, and what to say of it."""
+    if not scene.disk.tilt_deg or model.traits.tilted_disk:
+        return scene, []
+    return scene.with_values({"disk.tilt_deg": 0.0}), [f"the disk is not tilted: {model.key} finds crossings of the equator alone"]
+
+
 def _plunging(scene: Scene, where: SpaceTime) -> tuple[Scene, list[str]]:
     """`scene` with no matter that falls in where there can be none, and why."""
     why = _why_none_falls(scene, where) if scene.disk.plunging else ""
@@ -307,8 +315,10 @@ def _why_none_falls(scene: Scene, where: SpaceTime) -> str:
     """Why there can be no matter inside the innermost stable orbit of `scene`; empty where there can."""
     if not where.has_hole or not ray_model(scene).traits.exact or scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "the rays are not those of a hole's own space-time"
+    if scene.disk.tilt_deg:
+        return "the disk is tilted, and what falls in freely would leave its plane"
     if scene.disk.frequency_shift != "exact":
         return "the older viewers' formulas for g know none"
-    if scene.disk.inner_radius > where.isco_radius(scene.disk.orbit):
+    if scene.disk.inner_radius > where.isco_radius(scene.disk):
         return "the disk is cut off outside of it"
     return ""

@@ -6,12 +6,12 @@ A twin registers itself (`registry.twin`): its file in this folder is all that h
 import importlib
 import pkgutil
 
-from .hits import CAPTURED, ESCAPED, UNRESOLVED, ReferenceHits
+from .hits import CAPTURED, ESCAPED, UNRESOLVED, Crossings, ReferenceHits
 from .marching import INNERMOST_CROSSING
 from .registry import models, twin, twin_of
 from .tracing import trace
 
-__all__ = ["CAPTURED", "ESCAPED", "INNERMOST_CROSSING", "UNRESOLVED", "ReferenceHits", "models", "trace", "twin", "twin_of"]
+__all__ = ["CAPTURED", "ESCAPED", "INNERMOST_CROSSING", "UNRESOLVED", "Crossings", "ReferenceHits", "models", "trace", "twin", "twin_of"]
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")

@@ -39,8 +39,9 @@ class HitArrays:
         steps: int (…).
         direction: float32 (…, 3): asymptotic unit vectors in the world; zero unless escaped.
         lambda_: float32 (…): L_z/E in M; zero when no crossings are kept.
-        crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s; zero = none.
-        inbound: bool (…, 3): whether the light at each crossing still comes in towards the hole, so that k_r < 0; means nothing in the view `conservation`.
+        crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s, of a tilted disk in its own axes (`physics.tilted_disk`); zero = none.
+        inbound: bool (…, 3): whether the light at each crossing still comes in towards the hole, so that k_r < 0, or of a tilted disk whether it goes
+            south there, k_θ > 0; means nothing in the view `conservation`.
         momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
             |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
         met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.

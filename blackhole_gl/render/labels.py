@@ -115,7 +115,8 @@ def after(before: Labels, scene: Scene, aspect: float) -> Labels:
 def shape_of(scene: Scene) -> Scene:
     """`scene` with nothing but what labels depend on, so that a slider of colours, or a turn about the axis, finds those that are there."""
     disk, bare = scene.disk, Scene()
-    bare_disk = replace(bare.disk, enabled=disk.enabled, inner_radius=disk.inner_radius, outer_radius=disk.outer_radius, orbit=disk.orbit)
+    kept = ("enabled", "inner_radius", "outer_radius", "orbit", "tilt_deg")
+    bare_disk = replace(bare.disk, **{name: getattr(disk, name) for name in kept})
     return replace(bare, hole=scene.hole, camera=replace(scene.camera, azimuth_deg=0.0), rays=scene.rays, disk=bare_disk)
 
 
@@ -164,7 +165,7 @@ class _Maker:
         self._plan, self._observer, self._aspect = plan, observer, aspect
         self._angles = np.linspace(0.0, 2.0 * np.pi, _POINTS + 1)
         self._hole = self._place(_towards_hole())
-        self._isco = space_time(plan.scene).isco_radius(plan.scene.disk.orbit)
+        self._isco = space_time(plan.scene).isco_radius(plan.scene.disk)
         self._outlines = self._outlined(near)
 
     def labels(self) -> Labels:
@@ -183,7 +184,12 @@ class _Maker:
         return Labels(tuple(curves), tuple(_apart(name for name in found if name is not None)), outlines=self._outlines)
 
     def _named_circles(self) -> list[tuple[str, tuple[float, int], float, Colour]]:
-        """(name, circle, angle of the name on the screen, colour) of the circles in the disk's plane that are outlined, seen from far enough."""
+        """(name, circle, angle of the name on the screen, colour) of the circles in the disk's plane that are outlined, seen from far enough.
+
+        None of a tilted disk's: the closed forms are of circles in the equator.
+        """
+        if self._plan.scene.disk.tilt_deg:
+            return []
         rings = ("first ring (n = 1)", 36.0, GREEN), ("second ring (n = 2)", 12.0, BLUE)
         found = [(f"innermost stable orbit (ISCO), r = {self._isco:.3g} r_s", (self._isco, 0), 118.0, AMBER)]
         return found + [
@@ -192,7 +198,8 @@ class _Maker:
 
     def _outlined(self, near: Outlines | None) -> Outlines:
         edge = lensed_circles.shadow_edge(self._observer, self._angles)
-        wanted = [circle for _, circle, _, _ in self._named_circles()] + [(self._plan.disk_inner, 0)] * self._plan.scene.disk.enabled
+        disk = self._plan.scene.disk
+        wanted = [circle for _, circle, _, _ in self._named_circles()] + [(self._plan.disk_inner, 0)] * (disk.enabled and not disk.tilt_deg)
         circles = tuple(circle for circle in dict.fromkeys(wanted) if 2.0 * circle[0] * self._observer.w < 1.0)
         if not circles:
             return Outlines(edge, (), np.empty((0, len(edge))))

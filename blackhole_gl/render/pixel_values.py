@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import accretion, disk_profile, lensed_circles, plunging, relativity
+from ..physics import accretion, disk_profile, lensed_circles, plunging, relativity, tilted_disk
 from ..physics.observer import observe
 from ..plan import Plan
 from . import instances
@@ -93,14 +93,17 @@ def _on_disk(plan: Plan, hits: HitArrays, light: lensed_circles.Light) -> OnDisk
         return None
     order = int(on[0])
     radius, disk, energy = float(radii[order]), plan.scene.disk, 1.0 / float(light.energy)
+    place = tilted_disk.placed(hits.crossing[order], disk)
     if radius < plan.disk_inner:
         gravity, motion = _falling_shift(plan, radius, light, order)
+    elif disk.tilt_deg:
+        gravity, motion = _tilted_shift(plan, place, light, bool(hits.inbound[order]))
     else:
         gravity, motion = frequency_shift(plan, radius, math.nan if light.is_bound else float(light.lam))
     (profile,) = disk_profile.temperature(
         disk.temperature_law,
         np.array([radius]),
-        spin=plan.space_time.spin,
+        spin=plan.space_time.matter_spin(disk),
         orbit=disk.orbit,
         r_in=plan.disk_inner,
         r_out=plan.disk_outer,
@@ -108,8 +111,7 @@ def _on_disk(plan: Plan, hits: HitArrays, light: lensed_circles.Light) -> OnDisk
         edge=plan.disk_edge,
     )
     seen = accretion.hottest(plan.scene) * float(profile) * (gravity * energy if disk.redshift else 1.0) * (motion if disk.doppler_colour else 1.0)
-    azimuth = math.atan2(float(hits.crossing[order, 1]), float(hits.crossing[order, 0]))
-    return OnDisk(order, radius, azimuth, gravity * motion * energy, seen)
+    return OnDisk(order, radius, math.atan2(place[1], place[0]), gravity * motion * energy, seen)
 
 
 def frequency_shift(plan: Plan, radius: float, lam: float) -> tuple[float, float]:
@@ -131,6 +133,18 @@ def _falling_shift(plan: Plan, radius: float, light: lensed_circles.Light, order
     gravity = 1.0 / float(plunging.four_velocity(radius, spin, orbit).time)
     k_r = lensed_circles.crossing_momentum(light, np.array(order), np.array(radius))[0]
     return gravity, float(plunging.emission_shift(radius, light.lam, k_r, spin, orbit)) / gravity
+
+
+def _tilted_shift(plan: Plan, place: np.ndarray, light: lensed_circles.Light, southward: bool) -> tuple[float, float]:
+    """The two factors of `frequency_shift` of a tilted disk's matter at `place` (3,) in r_s; NaN by the older viewers' formulas."""
+    if plan.scene.disk.frequency_shift != "exact":
+        return math.nan, math.nan
+    spin, lam, eta = plan.space_time.spin, float(light.lam), float(light.eta)
+    sine, cosine = math.hypot(place[0], place[1]) / math.hypot(*place), place[2] / math.hypot(*place)
+    k_theta = math.sqrt(max(eta + (plan.space_time.observer_spin * cosine) ** 2 - (lam * cosine / sine) ** 2, 0.0))
+    momentum = np.array([0.0, k_theta if southward else -k_theta, lam])  # matter that circles does not feel k_r
+    gravity, motion = tilted_disk.shift(place, momentum, spin, plan.scene.disk)
+    return float(gravity), float(motion)
 
 
 def _met(plan: Plan, hits: HitArrays) -> str:

@@ -67,6 +67,8 @@ def why_not(plan: Plan) -> str:
         return "No polarization: it is that of the disk alone, and the scene has things or media."
     if plan.scene.polarization.emission == "synchrotron" and _field(plan.scene) == MagneticField(0.0, 0.0, 0.0):
         return "No polarization: all three parts of the magnetic field are 0; polarization.field_vertical is one of them."
+    if plan.scene.disk.tilt_deg:
+        return "No polarization: its closed forms are of a disk in the equator, and this one is tilted."
     return labels.without_closed_forms(plan, "polarization")
 
 
@@ -114,7 +116,7 @@ def _field(scene: Scene) -> MagneticField:
 def _velocity(plan: Plan, r: Float[np.ndarray, " K"]) -> Float[np.ndarray, "K 3"]:
     """Of the matter at `r` (r_s), in the frame of zero angular momentum: on circular orbits, or falling in from the innermost stable one."""
     spin, orbit = plan.space_time.spin, plan.scene.disk.orbit
-    inside = r < plan.space_time.isco_radius(orbit)
+    inside = r < plan.space_time.isco_radius(plan.scene.disk)
     found = polarization.circular_velocity(np.where(inside, plan.disk_outer, r), spin, orbit)
     found[inside] = polarization.falling_velocity(r[inside], spin, orbit)
     return found

@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import observer
+from ..physics import observer, tilted_disk
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
@@ -209,7 +209,7 @@ def _beginning(plan: Plan, local: Array) -> Array:
 
 def _closed(plan: Plan, hits: HitArrays, begin: Array) -> _Points:
     """What is known of a way in closed form: what it meets, and where it ends in the hole."""
-    met = _crossings(hits)
+    met = _crossings(plan, hits)
     if hits.fate[0] != Fate.CAPTURED:
         return _Points.without_steps(met, 0)
     last, radius = (met[-1] if len(met) else begin[0]), plan.space_time.horizon_radius
@@ -222,7 +222,7 @@ def _closed(plan: Plan, hits: HitArrays, begin: Array) -> _Points:
 
 
 def _path(plan: Plan, hits: HitArrays, begin: Array, found: _Points) -> RayPath:
-    met, direction, fate = _crossings(hits), hits.direction[0].astype(float), Fate(int(hits.fate[0]))
+    met, direction, fate = _crossings(plan, hits), hits.direction[0].astype(float), Fate(int(hits.fate[0]))
     radius = plan.space_time.horizon_radius * (plan.scene.hole.horizon_size if plan.model.traits.marches_in == "cartesian" else 1.0)
     if plan.integrator is not None:
         found = _with_ends(_until_it_falls_in(found, radius) if fate == Fate.CAPTURED else found, met, escapes=fate == Fate.ESCAPED)
@@ -265,7 +265,7 @@ def _with_ends(found: _Points, met: Array, *, escapes: bool) -> _Points:
     return _Points.without_steps(met[inward], 0).then(found).then(_Points.without_steps(met[outward], -1))
 
 
-def _crossings(hits: HitArrays) -> Array:
+def _crossings(plan: Plan, hits: HitArrays) -> Array:
     """Where the one ray of `hits` crosses the disk's plane, float64 (C, 3)."""
     crossing = hits.crossing[0]
-    return np.pad(crossing[np.any(crossing != 0.0, axis=-1)].astype(float), ((0, 0), (0, 1)))
+    return tilted_disk.placed(crossing[np.any(crossing != 0.0, axis=-1)], plan.scene.disk)

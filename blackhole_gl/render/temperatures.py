@@ -19,7 +19,7 @@ class TemperatureProfile:
     def of(self, plan: Plan) -> moderngl.Texture:
         """T/T_peak in one row, float32 and filtered linearly, for the disk of `plan`."""
         disk = plan.scene.disk
-        key = (disk.temperature_law, plan.space_time.spin, disk.orbit, plan.disk_inner, plan.disk_outer, plan.disk_edge, disk.inner_torque)
+        key = (disk.temperature_law, plan.space_time.matter_spin(disk), disk.orbit, plan.disk_inner, plan.disk_outer, plan.disk_edge, disk.inner_torque)
         if self._texture is not None and key == self._key:
             return self._texture
         values = disk_profile.table(*key[:5], edge=plan.disk_edge, torque=disk.inner_torque)

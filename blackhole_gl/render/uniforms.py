@@ -11,7 +11,7 @@ from functools import cache
 
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
-from ..physics import accretion, observer, plunging, shear
+from ..physics import accretion, observer, plunging, shear, tilted_disk
 from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields
 from ..scene.tables import Number
@@ -28,6 +28,9 @@ _RAY_MEMBERS = (
     ("picture_size", "vec2"),  # pixels of the whole picture
     ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
     ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
+    ("disk_axis_x", "vec4"),  # the disk's own axes, in the plan's frame: two in its plane, and that which stands on it
+    ("disk_axis_y", "vec4"),
+    ("disk_axis_z", "vec4"),
     ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
     ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
     ("camera_w", "float"),  # M/r, 0 at infinity
@@ -113,6 +116,7 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
     picture_scale = half_height / size[1]
     right, up = seen.hole_on_screen
     back, down, aside = seen.axes
+    x, y, z = tilted_disk.axes(scene.disk)  # where it is tilted, the plan's frame is the world
     return dict(
         observer_map=seen.observer_map,
         camera_n=(*seen.n, math.hypot(seen.n[0], seen.n[1])),
@@ -124,6 +128,9 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         picture_size=size,
         picture_offset=offset,
         picture_hole=(0.5 * size[0] + 0.5 * right / picture_scale, 0.5 * size[1] + 0.5 * up / picture_scale),
+        disk_axis_x=(*x, 0.0),
+        disk_axis_y=(*y, 0.0),
+        disk_axis_z=(*z, 0.0),
         hole_w_factors=(2.0 * where.horizon_radius, 2.0 * where.inner_horizon_radius),
         picture_scale=picture_scale,
         camera_w=seen.w,
@@ -173,6 +180,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
+    found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0)}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}

@@ -144,12 +144,18 @@ class Rays:
 
 @dataclass(frozen=True)
 class Disk:
-    """The thin accretion disk in the plane z = 0."""
+    """The thin accretion disk, in the plane z = 0 or tilted out of it."""
 
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
     outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
     thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing: the disk is thin. A medium of the kind slab has depth.", idle=True)
+    tilt_deg: float = number(
+        0.0, 0.0, 90.0, "°",
+        "Tilt of the disk's rigid plane out of the equator. Kinematic: its matter goes round in that plane at the rate of a circular orbit; round a spinning "
+        "hole a real one would precess and warp.",
+    )
+    tilt_azimuth_deg: float = number(0.0, -180.0, 180.0, "°", "Azimuth that the tilted disk's axis leans towards: there its plane lies lowest.")
     orbit: str = choice("prograde", ("prograde", "retrograde"), "Whether the matter turns with the hole's spin or against it.")
     plunging: bool = switch(
         False,

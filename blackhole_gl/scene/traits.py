@@ -31,6 +31,7 @@ class RayModelTraits:
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
         field: whether it bends rays in flat space by a field within a sphere, ``rays.field_radius``: then there is no hole.
+        tilted_disk: whether all the crossings that it finds are those of common/disk_plane.glsl, so that the disk may be tilted.
     """
 
     kind: Literal["closed", "differential"]
@@ -43,6 +44,7 @@ class RayModelTraits:
     second_order: bool = False
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
     field: bool = False
+    tilted_disk: bool = False
 
     @property
     def meets_things(self) -> bool:

@@ -50,7 +50,7 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     vec3 n = turned(start.n, aside, leg.x);
     vec3 across = turned(aside, -start.n, leg.x);
     float twist = -ray_twist_strength() * leg.y;
-    if (start.n.z != 0.0) add_leg_crossing(orbit, n, -across, u, u_far, twist, -1.0, hits);
+    if (disk_height(start.n) != 0.0) add_leg_crossing(orbit, n, -across, u, u_far, twist, -1.0, hits);
     vec3 v = h * u * across - radial_speed(orbit, u) * n;
     // The drag of the way in, to first order: it has turned the ray about the axis and, over that length of way, moved it aside.
     vec3 aside_of_axis = ray_drag() * vec3(-v.y, v.x, 0.0);

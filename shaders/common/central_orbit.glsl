@@ -2,6 +2,8 @@
 // between far radii, in closed form. They make the escape direction independent of where a march stopped. M is the model's
 // ray_newtonian_pull(), 0 where light is light.
 
+#include "common/disk_plane.glsl"
+
 const int LEG_NODES = 6;
 const float LEG_X[6] = float[6](0.033765243, 0.169395307, 0.380690407, 0.619309593, 0.830604693, 0.966234757);
 const float LEG_W[6] = float[6](0.085662246, 0.180380787, 0.233956967, 0.233956967, 0.180380787, 0.085662246);
@@ -36,21 +38,21 @@ vec3 turned(vec3 n, vec3 across, float angle) {
     return turn.x * n + turn.y * across;
 }
 
-// Where the outward leg from (n, u0) to u_end that moves towards `across` meets z = 0, as (point in the plane, ∫ u³ dσ up to it, 1), and the unit
+// Where the outward leg from (n, u0) to u_end that moves towards `across` meets the disk's plane, as (point in the plane, ∫ u³ dσ up to it, 1), and the unit
 // vector `onward` that it moves towards there; vec4(0) when it does not. Newton in u, as dφ/du is known.
 vec4 leg_crossing(Orbit orbit, vec3 n, vec3 across, float u0, float u_end, out vec3 onward) {
     onward = vec3(0.0);
     vec2 whole = orbit_leg(orbit, u0, u_end);
-    if (n.z * turned(n, across, whole.x).z >= 0.0) return vec4(0.0);
+    if (disk_height(n) * disk_height(turned(n, across, whole.x)) >= 0.0) return vec4(0.0);
     float u = 0.5 * (u0 + u_end);
     vec2 leg;
     vec3 there;
     for (int i = 0; i < 8; ++i) {
         leg = orbit_leg(orbit, u0, u);
         there = turned(n, across, leg.x);
-        float slope = turned(across, -n, leg.x).z * sqrt(orbit.h2) / radial_speed(orbit, u);
-        u = clamp(u + there.z / slope, max(1e-3 * u, u_end), u0);
+        float slope = disk_height(turned(across, -n, leg.x)) * sqrt(orbit.h2) / radial_speed(orbit, u);
+        u = clamp(u + disk_height(there) / slope, max(1e-3 * u, u_end), u0);
     }
     onward = turned(across, -n, leg.x);
-    return vec4(normalize(there.xy) / u, leg.y, 1.0);
+    return vec4(normalize(in_disk_axes(there).xy) / u, leg.y, 1.0);
 }

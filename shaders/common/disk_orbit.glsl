@@ -1,7 +1,7 @@
 // Circular equatorial orbits in Kerr, and with DISK_PLUNGING matter that falls in from the innermost stable one (blackhole_gl/physics/plunging.py): their rate and
 // their frequency shift g = E_infinity / E_emitter.
 //
-// r is Boyer–Lindquist in r_s, λ = L_z/E of the photon in M. Inside, M = 1 and x = √(r/M); `turn` is the sense of the
+// r is Boyer–Lindquist in r_s, λ = L_z/E of the photon in M, about the disk's axis (common/disk_light.glsl). Inside, M = 1 and x = √(r/M); `turn` is the sense of the
 // emitter (disk_spin_sign), and a_t, λ_t are spin and λ measured along it. Bardeen, Press & Teukolsky 1972: Ω = 1/(x³ + a_t),
 // u^t = (x³ + a_t)/(x^1.5 √(x³ − 3x + 2a_t)), g = 1/(u^t (1 − Ωλ_t)).
 //
@@ -13,8 +13,13 @@
 
 #include "common/disk_light.glsl"
 
+// A tilted disk's matter moves as round a hole whose spin is the part along the disk's axis.
 float turned_spin() {
+#if DISK_TILTED
+    return hole_spin * disk_spin_sign * disk_axis_z.z;
+#else
     return hole_spin * disk_spin_sign;
+#endif
 }
 
 // 1 − a_t, without cancellation when the spin is near 1.
@@ -95,6 +100,20 @@ vec2 disk_shift_exact(float r, float lambda) {
     return vec2(x * sqrt(x * max(span, 0.0)) / orbit, orbit / max(seen, 1e-3 * orbit));
 }
 
+#if DISK_TILTED
+// The same of matter that turns with the rigid plane of a tilted disk, where the hole's own metric has it: its g₀ = 1/u^t is √(−g_μν v^μ v^ν), v the rate of
+// its place by coordinate time.
+vec2 disk_shift_tilted(float r, DiskLight light) {
+    float rm = 2.0 * r, a = hole_spin, rate = 0.5 * disk_rate(r);
+    vec3 n = disk_place(light.heading), along = disk_place(vec2(-light.heading.y, light.heading.x));
+    float turning = rate * rm * (n.x * along.y - n.y * along.x);                    // r sin²θ φ'
+    float around = turning * turning / max(dot(n.xy, n.xy), 1e-12);                 // r² sin²θ φ'²
+    float sigma = 1.0 + a * a * n.z * n.z / (rm * rm), dragged = 1.0 - a * turning / rm;
+    float clock = 1.0 - (1.0 + a * a / (rm * rm)) * around - 2.0 / (rm * sigma) * dragged * dragged - sigma * max(rate * rate * rm * rm - around, 0.0);
+    return vec2(sqrt(max(clock, 0.0)), 1.0 / max(1.0 - rate * light.lambda, 1e-3));
+}
+#endif
+
 // The azimuthal direction cosine, along the orbit, of a photon as a static observer at r sees it (Schwarzschild).
 float disk_azimuthal_cosine(float r, float lambda) {
     float lapse = sqrt(max(1.0 - 1.0 / r, 0.0));
@@ -147,6 +166,8 @@ vec2 disk_shift(float r, DiskLight light, bool inbound) {
     return disk_shift_s1(r, lambda);
 #elif RAYS_MODEL_KERR_LIKE && RAYS_KERR_LIKE_FLOW
     return disk_shift_dragged(r, possible_lambda(r, lambda));
+#elif DISK_TILTED
+    return disk_shift_tilted(r, light);
 #else
     return disk_shift_exact(r, possible_lambda(r, lambda));
 #endif
@@ -166,6 +187,8 @@ float disk_approach(float r, float lambda) {
 float disk_g(float r, DiskLight light, bool inbound) {
 #if DISK_PLUNGING
     vec2 shift = is_falling(r) ? disk_shift_falling(r, light, inbound) : disk_shift_exact(r, light.lambda);
+#elif DISK_TILTED
+    vec2 shift = disk_shift_tilted(r, light);
 #else
     vec2 shift = disk_shift_exact(r, light.lambda);
 #endif

@@ -7,6 +7,8 @@
 // The march is of the way within the sphere alone. It begins where a ray comes in, or at a camera inside, and ends where the ray goes out; the straight
 // ways before and after are looked at once a ray. A ray that has gone rays_field_way within is held there: it ends as CAPTURED, and is black.
 
+#include "common/disk_plane.glsl"
+
 #define RAY_MEETS_BEYOND
 #define RAY_STEPS_SHORT
 
@@ -40,7 +42,7 @@ Approach field_approach(RayStart start) {
 #endif
     float begin = start.w > 0.0 ? -0.5 * cosine / start.w : -2.0 * reach;
 #if ORDERS > 0
-    if (start.w == 0.0 && v.z != 0.0) begin -= abs(nearest.z / v.z);
+    if (start.w == 0.0 && disk_height(v) != 0.0) begin -= abs(disk_height(nearest) / disk_height(v));
 #endif
     float half_chord = sqrt(max((rays_field_radius - b) * (rays_field_radius + b), 0.0));
     return Approach(nearest, v, begin, max(begin, -half_chord), half_chord);
@@ -50,13 +52,14 @@ Approach field_approach(RayStart start) {
 bool field_leg(vec3 x, vec3 v, float far, inout Hits hits) {
     float crossing = -1.0;
 #if ORDERS > 0
-    if (x.z != 0.0 && v.z != 0.0) crossing = -x.z / v.z;
+    vec2 heights = vec2(disk_height(x), disk_height(v));
+    if (heights.x != 0.0 && heights.y != 0.0) crossing = -heights.x / heights.y;
 #endif
-    vec2 point = x.xy + crossing * v.xy;
+    vec2 point = in_disk_axes(x + crossing * v).xy;
 #if MEETINGS
     return meet_along_line(x, v, far, crossing, point, hits);
 #else
-    if (crossing > 0.0 && crossing < far) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+    if (crossing > 0.0 && crossing < far) add_crossing(hits, point, momentum_at(disk_place(point), v));
     return false;
 #endif
 }

@@ -1,6 +1,7 @@
 // Writes hits into the targets of the trace pass. The other half is hit_map_read.glsl.
 #include "common/finite.glsl"
 #include "common/hit_texels.glsl"
+#include "common/disk_plane.glsl"
 
 layout(location = 0) out vec4 hits0_out;
 #if ORDERS > 0
@@ -63,7 +64,7 @@ Hits only_finite(Hits hits) {
 }
 
 #if RAYS_LISTED && MEETINGS < 2
-// (k_r, k_θ) in z = 0 at `point`; zero without a crossing.
+// (k_r, k_θ) in the disk's plane at `point`; zero without a crossing.
 vec2 covariant_momentum(vec2 point, Momentum momentum) {
     if (point == vec2(0.0)) return vec2(0.0);
 #if SPACE_TIME_FLAT
@@ -72,7 +73,11 @@ vec2 covariant_momentum(vec2 point, Momentum momentum) {
     float w = 0.5 * inversesqrt(dot(point, point));
     float fall = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
 #endif
+#if DISK_TILTED
+    return vec2(momentum.w_rate / fall, momentum.n_rate.z / max(length(normalize(disk_place(point)).xy), 1e-6));
+#else
     return vec2(momentum.w_rate / fall, momentum.n_rate.z);
+#endif
 }
 #endif
 

@@ -32,8 +32,8 @@ struct Hits {
     vec3 direction;    // asymptotic, world, unit; zero unless escaped
     float lambda;      // L_z/E in M
     int steps;
-    vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of z = 0, nearest along the ray first; zero = none
-    int inbound;       // bit n: at crossing n the light still comes in towards the hole
+    vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of the disk's plane, in its axes, nearest along the ray first; zero = none
+    int inbound;       // bit n: at crossing n the light still comes in towards the hole; of a tilted disk instead, it goes south there: k_θ > 0
 #if RAYS_LISTED
     Momentum momentum[3];  // at the crossings
 #endif
@@ -71,7 +71,12 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
     if (place == 0) hits.crossing[0] = point;
     else if (place == 1) hits.crossing[1] = point;
     else if (place == 2) hits.crossing[2] = point;
-    if (momentum.w_rate < 0.0 && place < 3) hits.inbound |= 1 << place;
+#if DISK_TILTED
+    bool inbound = momentum.n_rate.z > 0.0;
+#else
+    bool inbound = momentum.w_rate < 0.0;
+#endif
+    if (inbound && place < 3) hits.inbound |= 1 << place;
 #if RAYS_LISTED
     if (place == 0) hits.momentum[0] = momentum;
     else if (place == 1) hits.momentum[1] = momentum;

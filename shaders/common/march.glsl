@@ -1,4 +1,4 @@
-// Marches a differential ray model: steps until the ray has escaped or is captured, and finds its crossings of z = 0 on the way.
+// Marches a differential ray model: steps until the ray has escaped or is captured, and finds its crossings of the disk's plane on the way.
 //
 // A differential model (shaders/ray_models/) gives
 //     struct Orbit                                constants of this ray
@@ -34,26 +34,59 @@
 // An integrator gives integrator_step(Orbit, State, float h), one with an error estimate also integrator_pair and INTEGRATOR_ERROR_POWER.
 
 #include "common/march_step.glsl"
+#include "common/disk_plane.glsl"
 
 #if ORDERS > 0
+// Of the sign of the height above the disk's plane, and its rate.
+vec2 plane_height(Orbit orbit, State s) {
+#if DISK_TILTED
+    Path path = ray_path(orbit, s);
+    vec2 turn = cos_sin(path.twist.x);
+    vec3 n = vec3(rotate(path.place.xy, turn), path.place.z);
+    vec3 rate = vec3(rotate(path.rate.xy, turn) + path.twist.y * vec2(-n.y, n.x), path.rate.z);
+    return vec2(disk_height(n), disk_height(rate));
+#else
+    return vec2(ray_height(s), ray_height_rate(s));
+#endif
+}
+
 // The side of the plane that a ray is on; in the plane, the one it heads for, so that the camera's own place there does not count.
-bool is_below(State s) {
-    return ray_height(s) < 0.0 || (ray_height(s) == 0.0 && ray_height_rate(s) < 0.0);
+bool is_below(Orbit orbit, State s) {
+    vec2 height = plane_height(orbit, s);
+    return height.x < 0.0 || (height.x == 0.0 && height.y < 0.0);
+}
+
+// The part of a step of `h` at which it crosses the plane, by the cubic Hermite polynomial.
+float crossing_part(Orbit orbit, State a, State b, float h) {
+    vec2 before = plane_height(orbit, a), after = plane_height(orbit, b);
+    return hermite_root(before.x, h * before.y, after.x, h * after.y);
 }
 
 // One crossing between `a` and the state a step of `h` later. The root found on the cubic Hermite polynomial is stepped to again,
 // so that the crossing is as accurate as the march and not as the polynomial.
 void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits hits) {
-    float t = hermite_root(ray_height(a), h * ray_height_rate(a), ray_height(b), h * ray_height_rate(b));
+    float t = crossing_part(orbit, a, b, h);
     if (t >= end) return;
     State there = march_step(orbit, a, h * t);
-    float slip = clamp(-ray_height(there) / ray_height_rate(there), -0.1 * h, 0.1 * h);
+    vec2 height = plane_height(orbit, there);
+#if DISK_TILTED
+    for (int i = 0; i < 3; ++i) {  // where the frame is dragged, the height above a tilted plane is no cubic
+        t = clamp(t - height.x / (h * height.y), 0.5 * t, 0.5 * (t + 1.0));
+        there = march_step(orbit, a, h * t);
+        height = plane_height(orbit, there);
+    }
+#endif
+    float slip = clamp(-height.x / height.y, -0.1 * h, 0.1 * h);
 #ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
 #else
     there = state_drift(there, slip);
 #endif
+#if DISK_TILTED
+    vec2 point = in_disk_axes(path_point(ray_path(orbit, there))).xy;
+#else
     vec2 point = ray_plane_point(there);
+#endif
     if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there));
 }
 #endif
@@ -75,7 +108,7 @@ struct March {
     float trial;
 #endif
     int steps, fate;
-    bool crossed;   // z = 0, in the last step
+    bool crossed;   // the disk's plane, in the last step
 #if MEETINGS
     int first;      // leaf that may have been met
     bool near;      // something may have been met in it
@@ -126,6 +159,18 @@ March march_start(Orbit orbit, State first) {
     return m;
 }
 
+#if DISK_TILTED
+const float MOST_TURN = 0.7;  // radians about the hole in a step, so that no two crossings of the plane lie in one
+const float LEAST_PART = 1.0 / 16.0;  // of a step: at the horizon the turn has no end, and no light comes back
+
+// A step of `h`, or a shorter one where a spinning hole turns the ray about its axis faster than it bends.
+float step_within_turn(Orbit orbit, State s, float h) {
+    Path path = ray_path(orbit, s);
+    vec3 n = path.place.xyz, rate = path.rate.xyz + path.twist.y * vec3(-n.y, n.x, 0.0);
+    return h * clamp(MOST_TURN * dot(n, n) / max(abs(h) * length(cross(n, rate)), 1e-20), LEAST_PART, 1.0);
+}
+#endif
+
 // One step, tried or taken.
 void march_once(Orbit orbit, inout March m) {
 #ifdef RAY_RECHARTS
@@ -133,10 +178,16 @@ void march_once(Orbit orbit, inout March m) {
 #endif
     m.s = m.next;
 #ifdef STEP_ADAPTS
+#if DISK_TILTED
+    m.trial = step_within_turn(orbit, m.s, m.trial);
+#endif
     m.next = adapted_step(orbit, m.s, m.trial, m.h);
     m.next = completed(orbit, m.s, m.h, m.next);
 #else
     m.h = step_size(orbit, m.s);
+#if DISK_TILTED
+    m.h = step_within_turn(orbit, m.s, m.h);
+#endif
     m.next = march_step(orbit, m.s, m.h);
 #endif
 #if !RAYS_EARLY_END
@@ -146,7 +197,7 @@ void march_once(Orbit orbit, inout March m) {
     m.fate = ray_fate(orbit, m.next);
 }
 
-// Steps until the ray ends or, where `seeks`, has crossed z = 0. It only steps: every branch of a loop's body runs (docs/llvmpipe.md) in
+// Steps until the ray ends or, where `seeks`, has crossed the disk's plane. It only steps: every branch of a loop's body runs (docs/llvmpipe.md) in
 // every round, so what happens once a ray or once a crossing stands outside it.
 void march_on(Orbit orbit, bool seeks, inout March m) {
 #if MARCH_REPEATS
@@ -156,7 +207,7 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #endif
         march_once(orbit, m);
 #if ORDERS > 0
-        m.crossed = seeks && is_below(m.next) != is_below(m.s);
+        m.crossed = seeks && is_below(orbit, m.next) != is_below(orbit, m.s);
 #endif
 #if MEETINGS
 #if RAYS_BOUNDS
@@ -210,7 +261,7 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
 bool meet_in_step(Orbit orbit, March m, Way way, float end, Found found, inout Hits hits) {
     float crossing = 1e30;  // the part of the way
 #if ORDERS > 0
-    if (m.crossed) crossing = hermite_root(ray_height(m.s), m.h * ray_height_rate(m.s), ray_height(m.next), m.h * ray_height_rate(m.next)) * m.h / way.h;
+    if (m.crossed) crossing = crossing_part(orbit, m.s, m.next, m.h) * m.h / way.h;
 #endif
 #if MEETINGS > 1
     for (int i = 0; i < 8; ++i) {

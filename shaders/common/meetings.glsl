@@ -11,6 +11,7 @@
 //     float thing_<key>_crossing(int i, vec3 x, vec3 y, out bool enters)   the part 0…1 of the straight piece from x to y at which instance i is first
 //                                                 met, and whether it is entered there; 2: not at all
 #include "common/hierarchy.glsl"
+#include "common/disk_plane.glsl"
 
 uniform float meeting_reach;        // r_s from the hole, beyond which there is nothing to meet
 uniform sampler2D meeting_nodes;    // the hierarchy of all instances; a leaf holds 32·index + kind
@@ -269,7 +270,7 @@ bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, 
         bool none = found.kind == MEETING_NONE || from >= last;
         float s = mix(from, last, found.at);
         if (crosses && (none || s_crossing < s)) {
-            add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+            add_crossing(hits, point, momentum_at(disk_place(point), v));
             crosses = false;
         }
         if (none) return false;

@@ -1,5 +1,7 @@
 // Straight rays and a black ball in flat space.
 
+#include "common/disk_plane.glsl"
+
 // Hits of the straight ray that starts as `start`, with a ball of `radius` in r_s.
 // The ray is b + t v with b at right angles to the unit vector v; written so that a camera at infinity needs no case of its own.
 Hits straight_hits(RayStart start, float radius) {
@@ -19,12 +21,13 @@ Hits straight_hits(RayStart start, float radius) {
     vec2 point = vec2(0.0);
     bool crosses = false;
 #if ORDERS > 0
-    t = -b.z / v.z;
-    point = b.xy + t * v.xy;
-    crosses = start.n.z != 0.0 && v.z != 0.0 && t > t_start && t < t_end;
+    vec3 from_disk = in_disk_axes(b), along = in_disk_axes(v);
+    t = -from_disk.z / along.z;
+    point = from_disk.xy + t * along.xy;
+    crosses = disk_height(start.n) != 0.0 && along.z != 0.0 && t > t_start && t < t_end;
     crosses = crosses && dot(point, point) > crossing_r_min * crossing_r_min;
 #if !MEETINGS
-    if (crosses) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
+    if (crosses) add_crossing(hits, point, momentum_at(disk_place(point), v));
 #endif
 #endif
 #if MEETINGS

@@ -16,7 +16,7 @@ help = "Radius of its orbit; never inside the innermost stable one."
 default = 0.0
 range = [-360.0, 360.0]
 unit = "°"
-help = "Azimuth at scene time 0, counter-clockwise seen from +z."
+help = "Azimuth at scene time 0, counter-clockwise seen from +z; in a tilted disk, from where its axis leans and its plane lies lowest."
 
 [parameters.size]
 default = 0.15
@@ -31,7 +31,7 @@ help = "Light that it adds in its middle, over that of the disk there."
 
 [numbers.disk_spot]
 make = "blackhole_gl.physics.hot_spot:place"
-of = ["disk.hot_spot.radius", "disk.hot_spot.phase_deg", "disk.orbit", "hole.spin", "rays.model", "rays.lensing", "time"]
+of = ["disk.hot_spot.radius", "disk.hot_spot.phase_deg", "disk.orbit", "disk.tilt_deg", "hole.spin", "rays.model", "rays.lensing", "time"]
 type = "vec4"
 ---*/
 

@@ -9,6 +9,7 @@ tells_paths = true
 space_time = "flat"
 spins = true
 exact = true
+tilted_disk = true
 ---*/
 
 #include "common/straight.glsl"

@@ -11,6 +11,7 @@ space_time = "kerr"
 spins = true
 second_order = true
 exact = true
+tilted_disk = true
 ---*/
 // w'' = c₂w + c₃w² + c₄w³,  n'' = −(K + 2a²n_z²)n + a²n_z ẑ,  twist' = −a w (2 − aλw)/((1 − w r₊)(1 − w r₋)).
 // Units M = 1. The world direction is n turned about the spin axis by the twist.

@@ -11,6 +11,7 @@ space_time = "kerr"
 spins = true
 second_order = false  # not separated: the momenta's rates depend on the momenta
 exact = true
+tilted_disk = true
 ---*/
 // H = ½(p² − 1 − f κ²), κ = E + l·p, with the f and l of ingoing coordinates (units M = 1). A ray traced backwards is a photon of the
 // time-reversed space-time, Kerr with −a, that moves along the look direction.

@@ -11,6 +11,7 @@ space_time = "flat"
 spins = false
 second_order = true
 exact = false
+tilted_disk = true
 ---*/
 // The second term alone is light in Schwarzschild; the first is what a slow mass would feel, and light at |v| = 1 feels it too here.
 

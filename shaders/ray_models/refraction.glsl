@@ -11,6 +11,7 @@ space_time = "flat"
 spins = false
 second_order = true
 exact = true
+tilted_disk = true
 field = true
 
 [parameters]

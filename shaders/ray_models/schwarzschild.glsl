@@ -11,6 +11,7 @@ space_time = "schwarzschild"
 spins = false
 second_order = true
 exact = true
+tilted_disk = true
 ---*/
 
 float ray_twist_strength() {

@@ -11,6 +11,7 @@ space_time = "schwarzschild"
 spins = false
 second_order = true
 exact = true
+tilted_disk = true
 ---*/
 // Units M = 1. With φ = √K τ the equation reads w'' = K w (3 w − 1): the same steps in φ, and still a sensible equation where b = √K is 0
 // and φ stands still. The place is n cos φ + aside sin φ, so that disk crossings lie at known φ.

@@ -8,6 +8,7 @@ kind = "closed"
 space_time = "schwarzschild"
 spins = false
 exact = true
+tilted_disk = true
 
 [tables.orbit_table]
 make = "blackhole_gl.physics.orbit_table:table"
@@ -20,6 +21,7 @@ of = ["camera.distance"]
 type = "vec2"
 ---*/
 #include "common/orbit_from_centre.glsl"
+#include "common/disk_plane.glsl"
 
 uniform sampler2D orbit_table;
 
@@ -34,7 +36,7 @@ float swept_angle(float ratio) {
 }
 
 #if ORDERS > 0
-// `radius` as (numerator, denominator); `node` is the unit vector of the crossing in z = 0; `onward` the unit vector that the ray turns to there; `state` is
+// `radius` as (numerator, denominator); `node` is the unit vector of the crossing in the disk's plane; `onward` the unit vector that the ray turns to there; `state` is
 // (u, du/dφ) there as good as the other sums allow. The orbit's equation knows the size of du/dφ better but beside a turning point, where it is a small root.
 void add_kept(bool there, vec2 radius, vec2 node, vec3 onward, vec2 state, float root_kappa, inout Hits hits) {
     if (!there || radius.y <= 0.0 || radius.y * crossing_r_min >= radius.x) return;
@@ -44,14 +46,15 @@ void add_kept(bool there, vec2 radius, vec2 node, vec3 onward, vec2 state, float
     add_crossing(hits, r * node, Momentum(w_rate, (2.0 / root_kappa) * onward));
 }
 
-// The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets z = 0 first. The first is reached from the camera, the last from the
+// The crossings lie at φ₀ + nπ, φ₀ where the orbit's plane meets the disk's first. The first is reached from the camera, the last from the
 // ray's end, which holds all digits however near the critical curve; those between from the camera by quarter turns: the longer
 // the way, the nearer orbit_on comes to 0/0 for a camera close to the horizon.
 void add_crossings(RayStart start, vec3 across, vec2 end, float swept, bool escapes, float kappa, float root_kappa, inout Hits hits) {
-    float tilt = length(vec2(start.n.z, across.z));
-    float side = start.n.z == 0.0 ? sign(across.z) : sign(start.n.z);  // a camera in the plane does not cross it where it is
-    vec2 first = vec2(-across.z * side, abs(start.n.z)) / max(tilt, 1e-30);
-    vec2 node = first.x * start.n.xy + first.y * across.xy;
+    vec3 from_disk = in_disk_axes(start.n), aside = in_disk_axes(across);
+    float tilt = length(vec2(from_disk.z, aside.z));
+    float side = from_disk.z == 0.0 ? sign(aside.z) : sign(from_disk.z);  // a camera in the plane does not cross it where it is
+    vec2 first = vec2(-aside.z * side, abs(from_disk.z)) / max(tilt, 1e-30);
+    vec2 node = first.x * from_disk.xy + first.y * aside.xy;
 
     int half_turns = int(swept * 0.318309886);
     float flip = (half_turns & 1) == 0 ? 1.0 : -1.0;

@@ -9,6 +9,7 @@ tells_paths = true
 space_time = "flat"
 spins = false
 exact = false
+tilted_disk = true
 
 [parameters.radius]
 default = 1.0

@@ -8,6 +8,7 @@ kind = "closed"
 space_time = "schwarzschild"
 spins = false
 exact = false
+tilted_disk = true
 
 [parameters.second_order]
 default = true
@@ -15,6 +16,8 @@ help = "Adds 15π r_s²/(16 b²) to the deflection 2 r_s/b."
 ---*/
 // A ray that starts at the angle ψ from the hole bends by (1 + cos ψ)/2 of the whole on its way: to first order exact for a static
 // observer at any distance, all of it from afar and none looking straight away.
+
+#include "common/disk_plane.glsl"
 
 Hits trace_ray(RayStart start) {
     Hits hits = no_hits(start.lambda);
@@ -44,14 +47,15 @@ Hits trace_ray(RayStart start) {
     if (hits.fate == ESCAPED) hits.direction = normalize(leaving);
 #if ORDERS > 0
     float least = crossing_r_min * crossing_r_min;
-    vec2 point = closest.xy - (closest.z / v.z) * v.xy;
-    float t = -closest.z / v.z;
-    if (start.n.z != 0.0 && t > t_start && t < 0.0 && dot(point, point) > least) add_crossing(hits, point, momentum_at(vec3(point, 0.0), v));
-    vec3 corner = closest + t_kink * v;
-    t = -corner.z / leaving.z;
-    point = corner.xy + t * leaving.xy;
-    bool from_within = start.n.z == 0.0 && cosine <= 0.0;  // a straight line that starts in the plane meets it nowhere else
-    if (hits.fate == ESCAPED && t > 0.0 && !from_within && dot(point, point) > least) add_crossing(hits, point, momentum_at(vec3(point, 0.0), leaving));
+    vec3 from_disk = in_disk_axes(closest), along = in_disk_axes(v);
+    vec2 point = from_disk.xy - (from_disk.z / along.z) * along.xy;
+    float t = -from_disk.z / along.z;
+    if (disk_height(start.n) != 0.0 && t > t_start && t < 0.0 && dot(point, point) > least) add_crossing(hits, point, momentum_at(disk_place(point), v));
+    vec3 corner = in_disk_axes(closest + t_kink * v), onward = in_disk_axes(leaving);
+    t = -corner.z / onward.z;
+    point = corner.xy + t * onward.xy;
+    bool from_within = disk_height(start.n) == 0.0 && cosine <= 0.0;  // a straight line that starts in the plane meets it nowhere else
+    if (hits.fate == ESCAPED && t > 0.0 && !from_within && dot(point, point) > least) add_crossing(hits, point, momentum_at(disk_place(point), leaving));
 #endif
     return hits;
 }

@@ -16,7 +16,8 @@ void main() {
 #if ORDERS > 0
     DiskLight light = disk_light(hits.lambda, pixel_direction(gl_FragCoord.xy));
     for (int n = ORDERS - 1; n >= 0; --n) {
-        vec2 shift = disk_shift(clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out), light, is_inbound(hits, n));
+        DiskLight sent = light_at_crossing(light, hits.crossing[n], is_inbound(hits, n));
+        vec2 shift = disk_shift(clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out), sent, is_inbound(hits, n));
         if (on_disk(hits.crossing[n])) colour = false_colour(shift.x * shift.y * light.energy);
     }
 #endif

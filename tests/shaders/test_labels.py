@@ -207,3 +207,10 @@ def test_the_command_draws_them(tmp_path) -> None:
     beside = np.abs(pictures["steps"] - pictures["bare"]).max(axis=-1) > 20
     assert beside[75:, 60:].any() and not beside[:60].any()
     assert presets.load([tmp_path / "labels.png"]).post.labels
+
+
+def test_a_tilted_disk_has_no_outlines_but_the_shadow_has_its_own() -> None:
+    level, tilted = (labels.of(presets.load(["kerr"], {"disk.tilt_deg": tilt}), 16 / 9) for tilt in (0.0, 30.0))
+    assert len(tilted.curves) == 1 < len(level.curves)
+    np.testing.assert_array_equal(tilted.curves[0].places, level.curves[0].places)
+    assert [name.text for name in tilted.names] == ["shadow, inside the critical curve", "centre of the hole"]
