@@ -19,7 +19,7 @@ out vec4 colour;
 
 void main() {
     vec2 pixel = gl_FragCoord.xy - target_origin, d = pixel - place;
-    float fall = max(1.0 - (stretch.x * d.x * d.x + 2.0 * stretch.y * d.x * d.y + stretch.z * d.y * d.y), 0.0); // skies/procedural.glsl has the same kernel
-    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb + glowing + fall * fall * fall * brightest;
+    float fall = max(1.0 - (stretch.x * d.x * d.x + 2.0 * stretch.y * d.x * d.y + stretch.z * d.y * d.y), 0.0), square = fall * fall; // the kernel of common/star_light.glsl
+    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb + glowing + square * square * brightest;
     colour = fall > 0.0 ? vec4(developed(light), 1.0) : vec4(0.0);
 }

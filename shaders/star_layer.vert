@@ -156,7 +156,7 @@ void main() {
     float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);
     place = (vec2(here) + 0.5 + offset) / finer;
     stretch = 0.25 * inverse_of(spread, spread_det);
-    brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
+    brightest = light * abs(texelFetch(radiance, here, 0).a) / (0.8 * 3.1415927 * sqrt(spread_det * gram.w));
     vec2 part = (pieces ? vec2(here) + 0.5 : place * finer) / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
     glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;

@@ -80,6 +80,7 @@ SHOTS = (
     Shot("polish_doughnut", ("polish_doughnut",)),
     Shot("cloudy_slab", ("cloudy_slab",), time=24.0),
     Shot("jet", ("jet",)),
+    Shot("real_sky", ("real_sky",)),
 )
 
 

@@ -19,11 +19,15 @@ _TYPES = {  # GL_UNSIGNED_BYTE, GL_HALF_FLOAT, GL_FLOAT, each with the internal 
 _int, _enum = ctypes.c_int, ctypes.c_uint
 
 
-def build(ctx: moderngl.Context, texture: moderngl.Texture, values: np.ndarray) -> None:
-    """Gives `texture`, which holds `values` (rows, columns, 1 to 4) of uint8, float16 or float32, all its smaller levels."""
+def build(ctx: moderngl.Context, texture: moderngl.Texture, values: np.ndarray, made: list[np.ndarray] | None = None) -> None:
+    """Gives `texture`, which holds `values` (rows, columns, 1 to 4) of uint8, float16 or float32, its smaller levels: those `made`, and means of the last."""
+    made = made or []
+    levels = [*made, *smaller((made or [values])[-1])]
     loader = getattr(ctx.mglo, "_context", None)
     if loader is None:  # moderngl has no way to a level but this, and need not go on to lead to the driver's functions
         texture.build_mipmaps()
+        for number, level in enumerate(made, 1):
+            texture.write(level.tobytes(), level=number, alignment=1)
         return
     set_pixels = _function(loader, "glPixelStorei", _enum, _int)
     set_level = _function(loader, "glTexImage2D", _enum, _int, _int, _int, _int, _int, _enum, _enum, ctypes.c_void_p)
@@ -31,7 +35,7 @@ def build(ctx: moderngl.Context, texture: moderngl.Texture, values: np.ndarray) 
     components = values.shape[2]
     texture.use()
     set_pixels(_UNPACK_ALIGNMENT, 1)
-    for number, level in enumerate(smaller(values), 1):
+    for number, level in enumerate(levels, 1):
         rows, columns = level.shape[:2]
         set_level(_TEXTURE_2D, number, internal[components - 1], columns, rows, 0, _FORMATS[components - 1], kind, level.tobytes())
 

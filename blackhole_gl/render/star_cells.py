@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .sky_cube import cell_share, on_cube
+
 Array = np.ndarray
 
 GRIDS = ((7, 1.0, 20.0), (16, 0.2536, 1.0), (34, 0.0783, 0.2536), (60, 0.0309, 0.0783))
@@ -37,10 +39,10 @@ def _stars(x: Array, y: Array, face: Array, cells: int, low: float, high: float)
     mixed = hash_bits(_u32(x * 0x9E3779B1) + _u32(y * 0x85EBCA77) + _u32(face * 0xC2B2AE3D) + np.uint32(cells * 0x27D4EB2F & 0xFFFFFFFF))
     jitter, draw = _three(mixed), _three(hash_bits(mixed + np.uint32(1)))
     place = [(cell + MARGIN + (1.0 - 2.0 * MARGIN) * shift) / cells * 2.0 - 1.0 for cell, shift in ((x, jitter[0]), (y, jitter[1]))]
-    direction = _on_cube(face, *place)
+    direction = on_cube(face, *place)
     height = direction @ POLE
     richness = 0.25 + 0.75 / (1.0 + 20.0 * height * height)
-    exists = richness * _cell_share(*place) >= draw[0]
+    exists = richness * cell_share(*place) >= draw[0]
     tail = (low / high) ** (4.0 / 3.0)
     flux = np.where(exists, low * (1.0 + (tail - 1.0) * draw[1]) ** -0.75, 0.0)
     kelvin = 2900.0 + 5500.0 * draw[2] + 18000.0 * draw[2] ** 8
@@ -63,20 +65,3 @@ def _u32(value: Array) -> Array:
 def _three(h: Array) -> tuple[Array, Array, Array]:
     first, second, third = ((h >> np.uint32(shift) & np.uint32(1023)) / 1023.0 for shift in (0, 10, 20))
     return first, second, third
-
-
-def _flat(place: Array) -> Array:
-    return place * (np.abs(place) + 2.0) / 3.0
-
-
-def _on_cube(face: Array, u: Array, v: Array) -> Array:
-    """Unit vectors (…, 3) of places −1…1 on the cube's faces, spread so that cells have nearly equal solid angles."""
-    turned = np.stack([np.where(face % 2 == 1, -1.0, 1.0), _flat(u), _flat(v)], axis=-1)
-    axis = face // 2
-    picked = np.where((axis == 0)[..., None], turned, np.where((axis == 1)[..., None], turned[..., [2, 0, 1]], turned[..., [1, 2, 0]]))
-    return picked / np.linalg.norm(picked, axis=-1, keepdims=True)
-
-
-def _cell_share(u: Array, v: Array) -> Array:
-    """Solid angle of a cell against the largest there is, 1.4831 of the one at a face's middle."""
-    return (1.0 + np.abs(u)) * (1.0 + np.abs(v)) / (1.4831 * (1.0 + _flat(u) ** 2 + _flat(v) ** 2) ** 1.5)

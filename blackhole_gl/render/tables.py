@@ -68,22 +68,34 @@ class Tables:
         kept = self._kept.get(table)
         if kept is not None and kept[0] == arguments:
             return kept[1]
-        texture = _filled(self._ctx, table, _values(table, arguments), kept[1] if kept else None)
+        texture = _filled(self._ctx, table, _levels(table, arguments), kept[1] if kept else None)
         self._kept[table] = arguments, texture
         self.made += 1
         return texture
 
 
-def _values(table: Table, arguments: tuple[Any, ...]) -> np.ndarray:
-    values = table.made(arguments)
-    if not isinstance(values, np.ndarray) or values.ndim != 3 or not 1 <= values.shape[2] <= 4 or values.dtype not in _DTYPES:
-        found = f"{values.dtype} {values.shape}" if isinstance(values, np.ndarray) else type(values).__name__
-        raise CatalogueError(f"{table.place}: {table.make} made {found}; allowed is an array (rows, columns, 1 to 4) of uint8, float16 or float32")
-    return np.ascontiguousarray(values)
+def _levels(table: Table, arguments: tuple[Any, ...]) -> list[np.ndarray]:
+    """What the table holds, and where its maker says so its smaller levels.
+
+    Raises:
+        CatalogueError: it is not what a texture can hold.
+    """
+    made = table.made(arguments)
+    levels = list(made) if isinstance(made, tuple) else [made]
+    for number, values in enumerate(levels):
+        if not isinstance(values, np.ndarray) or values.ndim != 3 or not 1 <= values.shape[2] <= 4 or values.dtype not in _DTYPES:
+            found = f"{values.dtype} {values.shape}" if isinstance(values, np.ndarray) else type(values).__name__
+            raise CatalogueError(f"{table.place}: {table.make} made {found}; allowed is an array (rows, columns, 1 to 4) of uint8, float16 or float32")
+        wanted = *(max(size >> number, 1) for size in levels[0].shape[:2]), levels[0].shape[2]
+        if number and (table.filter != "mipmap" or values.shape != wanted or values.dtype != levels[0].dtype):
+            found = f"level {number} as {values.dtype} {values.shape}"
+            raise CatalogueError(f"{table.place}: {table.make} made {found}; allowed, with the filter mipmap, is {levels[0].dtype} {wanted}")
+    return [np.ascontiguousarray(values) for values in levels]
 
 
-def _filled(ctx: moderngl.Context, table: Table, values: np.ndarray, old: moderngl.Texture | None) -> moderngl.Texture:
-    """`values` in the texture `old`, or in a new one where it does not fit."""
+def _filled(ctx: moderngl.Context, table: Table, levels: list[np.ndarray], old: moderngl.Texture | None) -> moderngl.Texture:
+    """`levels` in the texture `old`, or in a new one where it does not fit."""
+    values = levels[0]
     rows, columns, components = values.shape
     dtype = _DTYPES[values.dtype]
     if old is not None and (old.size, old.components, old.dtype) == ((columns, rows), components, dtype):
@@ -94,7 +106,7 @@ def _filled(ctx: moderngl.Context, table: Table, values: np.ndarray, old: modern
             old.release()
         texture = ctx.texture((columns, rows), components, values.tobytes(), dtype=dtype, alignment=1)
     if table.filter == "mipmap":
-        mip_levels.build(ctx, texture, values)
+        mip_levels.build(ctx, texture, values, levels[1:])
     texture.filter = _FILTERS[table.filter]
     texture.repeat_x, texture.repeat_y = table.repeat_x, False
     return texture

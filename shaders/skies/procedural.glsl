@@ -36,16 +36,14 @@ repeat_x = true
 [tables.star_cells]
 make = "blackhole_gl.render.star_cells:table"
 ---*/
-#include "common/colour.glsl"
 #include "common/rotation.glsl"
+#include "common/sky_cube.glsl"
+#include "common/star_light.glsl"
 
 // Stars sit in the cells of four grids on a cube round the world, one star a cell, each grid finer and fainter than the
 // last. A star keeps a margin to its cell's border. So long as the pixel's footprint is smaller than the margin, only the
 // star of the pixel's own cell can be seen in it: one look-up a grid, no neighbours, no seams at the cube's edges. Where the
 // footprint grows beyond that, the grid fades into its own mean radiance.
-//
-// A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
-// light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
 
 uniform sampler2D star_cells;  // blackhole_gl/render/star_cells.py; nearest: docs/llvmpipe.md, texels
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
@@ -55,80 +53,13 @@ const vec3 GALAXY_POLE = vec3(0.284464, 0.562425, 0.776375);
 const float GALAXY_TEXEL = 6.2831853 / 1024.0;
 const float STAR_MARGIN = 0.16; // of a cell
 const vec2 STAR_TEXEL = 1.0 / vec2(360.0, 117.0); // of star_cells
-const float HAZE_KELVIN = 6200.0;
 const float STAR_UNIT = 4.0e-6; // radiance × sr of a star of flux 1
-
-// A footprint on the sky in the plane that touches the sphere at `centre`, as the axes in which it is a circle of radius 1.
-struct SkySpot {
-    vec3 centre;
-    vec3 across, along;
-    float kernel;     // 1/(π √det C), per sr
-    float reach2;     // square of the longest half-axis, rad²
-};
-
-SkySpot sky_spot(vec3 centre, vec3 right, vec3 up) {
-    SkySpot spot;
-    spot.centre = centre;
-    // Two unit vectors at right angles to it and to each other, without a root (Duff et al. 2017).
-    float side = centre.z < 0.0 ? -1.0 : 1.0;
-    float k = -1.0 / (side + centre.z);
-    float m = centre.x * centre.y * k;
-    vec3 e1 = vec3(1.0 + side * centre.x * centre.x * k, side * m, -side * centre.x);
-    vec3 e2 = vec3(m, side + centre.y * centre.y * k, -centre.y);
-    vec2 a = vec2(dot(right, e1), dot(right, e2));
-    vec2 b = vec2(dot(up, e1), dot(up, e2));
-    float least = max(sky_procedural_star_size * sky_procedural_star_size, 1e-13); // float32 directions resolve no less
-    vec3 c = vec3(a.x * a.x + b.x * b.x + least, a.x * a.y + b.x * b.y, a.y * a.y + b.y * b.y + least);
-    // det C = (a × b)² + least·(|a|² + |b|²) + least²: no difference of large numbers
-    float cross_ab = a.x * b.y - a.y * b.x;
-    float det = cross_ab * cross_ab + least * (dot(a, a) + dot(b, b)) + least * least;
-    // Half of a root of C⁻¹: where |(across, along)·d| is 1 the star's kernel ends.
-    float root_c = sqrt(c.x), root_det = sqrt(det);
-    float shared_inverse = 1.0 / (root_c * root_det);
-    spot.across = (0.5 * shared_inverse * root_det) * e1;
-    spot.along = (0.5 * shared_inverse) * (c.x * e2 - c.y * e1);
-    spot.kernel = shared_inverse * root_c * (1.0 / 3.1415927);
-    float half_trace = 0.5 * (c.x + c.z);
-    spot.reach2 = half_trace + sqrt(max(half_trace * half_trace - det, 0.0));
-    return spot;
-}
 
 // How many stars there are towards d against the galactic plane: 1 in the plane, a quarter far from it.
 float star_richness(vec3 d) {
     float height = dot(d, GALAXY_POLE);
     return 0.25 + 0.75 / (1.0 + 20.0 * height * height);
 }
-
-// A place on the cube: face 0…5, place in −1…1 on it, spread so that cells have nearly equal solid angles.
-struct SkyPlace {
-    float face;
-    vec2 place;
-    float narrowness; // inverse square of the angular distance between the nearer two opposite sides of a cell that is the whole face, rad⁻²
-};
-
-SkyPlace sky_place(vec3 d) {
-    vec3 a = abs(d);
-    bool x_face = a.x >= a.y && a.x >= a.z;
-    bool y_face = !x_face && a.y >= a.z;
-    vec3 turned = x_face ? d : (y_face ? d.yzx : d.zxy);
-    vec2 flat_place = turned.yz * (1.0 / abs(turned.x));
-    vec2 stretch = 1.0 + 3.0 * abs(flat_place);
-    vec2 place = sign(flat_place) * (sqrt(stretch) - 1.0);
-    float face = (x_face ? 0.0 : (y_face ? 2.0 : 4.0)) + (turned.x < 0.0 ? 1.0 : 0.0);
-    // Sides are 4/3 √stretch/√((1 + flat²)(1 + flat.x² + flat.y²)) apart.
-    vec2 squares = flat_place * flat_place;
-    vec2 apart = (1.0 + squares) * stretch.yx;
-    float narrowness = 0.5625 * (1.0 + squares.x + squares.y) * max(apart.x, apart.y) / (stretch.x * stretch.y);
-    return SkyPlace(face, place, narrowness);
-}
-
-// Light of stars, kept as numbers and their temperature: colour is looked up once, at the end.
-struct StarLight {
-    float flux;  // of single stars, in kernels
-    float heat;  // the same, times K
-    float haze;  // of the stars too dense to be seen singly, where the richness is 1, per sr
-    float near;  // number of single stars within `room`
-};
 
 // A grid of 6·cells² places for stars with fluxes from `low` to `high`, number ∝ flux^-4/3. `row`: where they begin in `star_cells`.
 struct StarGrid {
@@ -152,10 +83,6 @@ vec4 grid_star(StarGrid grid, SkyPlace at) {
     return textureLod(star_cells, (cell + vec2(at.face * grid.cells, grid.row)) * STAR_TEXEL, 0.0);
 }
 
-float star_kelvin(float flux) {
-    return 32.0 * float(floatBitsToInt(flux) & 1023);
-}
-
 float sky_spread(SkySpot spot, SkyPlace at) {
     return (2.0 / STAR_MARGIN) * sqrt(spot.reach2 * at.narrowness);
 }
@@ -169,9 +96,8 @@ void add_star_grid(inout StarLight light, StarGrid grid, SkySpot spot, SkyPlace 
     vec4 star = grid_star(grid, at);
     vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
     float away2 = dot(d, d);
-    float fall = max(1.0 - away2, 0.0); // ∫ fall³ over the disc of radius 2 is π
     float single = star.w - haze * star.w;
-    float flux = single * fall * fall * fall;
+    float flux = single * star_fall(away2);
     light.flux += flux;
     light.heat += flux * star_kelvin(star.w);
     light.haze += haze * (mean_flux * grid.cells * grid.cells);
@@ -189,12 +115,6 @@ StarLight star_light(SkySpot spot, float room) {
     // A grid of n × n cells a face has n²/4 · 9/4 /1.4831 stars per steradian, wherever one looks, times the richness.
     stars.haze *= star_richness(spot.centre) * (0.5625 / 1.4831);
     return stars;
-}
-
-vec3 star_radiance(StarLight stars, float kernel, float energy) {
-    float power = stars.flux * kernel + stars.haze;
-    vec3 colour = blackbody_colour((stars.heat * kernel + stars.haze * HAZE_KELVIN) / max(power, 1e-20) * energy);
-    return colour * (power * STAR_UNIT * sky_procedural_star_brightness);
 }
 
 // `reach`: half the longest axis of the footprint, rad.
@@ -220,7 +140,7 @@ vec2 sky_shift(float energy) {
 
 vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star) {
     vec2 shift = sky_shift(energy);
-    SkySpot spot = sky_spot(direction, right, up);
+    SkySpot spot = sky_spot(direction, right, up, sky_procedural_star_size);
     SkyPlace at = sky_place(direction);
     StarGrid grid = STAR_GRIDS[n];
     star = grid_star(grid, at);
@@ -232,13 +152,10 @@ vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4
 
 vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near) {
     vec2 shift = sky_shift(energy);
-    SkySpot spot = sky_spot(direction, finer * right, finer * up);
-    float room = 0.362 / finer; // a little beyond the pixel's corners, 0.71 of its sides away; a half kernel is two sides of a finer one
-    // An image as long as star_layer.vert draws by pieces: the footprint's short half-axis is little more than a star's radius.
-    float short2 = 1.0 / max(9.8696044 * spot.kernel * spot.kernel * spot.reach2, 1e-20);
-    if (short2 < (16.0 / 15.0) * max(sky_procedural_star_size * sky_procedural_star_size, 1e-13)) room += 1.0;
+    SkySpot spot = sky_spot(direction, finer * right, finer * up, sky_procedural_star_size);
+    float room = star_room(spot, finer, sky_procedural_star_size);
     StarLight stars = star_light(spot, room * room);
     stars_near = stars.near;
     if (finer < 1.0) stars.flux = stars.heat = 0.0;
-    return (star_radiance(stars, spot.kernel, shift.x) + galaxy_radiance(direction, sqrt(spot.reach2) / finer)) * shift.y;
+    return (star_radiance(stars, spot.kernel, shift.x) * (STAR_UNIT * sky_procedural_star_brightness) + galaxy_radiance(direction, sqrt(spot.reach2) / finer)) * shift.y;
 }

@@ -15,7 +15,7 @@ import numpy as np
 
 from blackhole_gl.glsl.compose import compose
 from blackhole_gl.glsl.declared import defines
-from blackhole_gl.render import star_cells
+from blackhole_gl.render import mip_levels, star_cells, star_index
 from blackhole_gl.resources import assets_dir, shaders_dir
 
 VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }"
@@ -39,6 +39,8 @@ SWITCHES = {
     "DISK_COMPOSITING_OPACITY": 1,
     "SKY_ENABLED": 0,
     "SKY_PROCEDURAL_FREQUENCY_SHIFT": 1,
+    "SKY_CATALOGUE_FREQUENCY_SHIFT": 1,
+    **star_index.CONSTANTS,
     "POST_BLOOM": 0,
     "POST_DITHER": 0,
     "POST_TONE_MAP_REINHARD": 0,
@@ -93,6 +95,10 @@ UNIFORMS: dict[str, tuple[str, Any]] = {
     "sky_procedural_star_brightness": ("float", 1.0),
     "sky_procedural_galaxy_brightness": ("float", 1.0),
     "sky_procedural_star_size": ("float", 0.00025),
+    "sky_catalogue_star_brightness": ("float", 1.0),
+    "sky_catalogue_galaxy_brightness": ("float", 0.0),
+    "sky_catalogue_star_size": ("float", 0.00025),
+    "catalogue_attitude": ("vec4", (0.0, 0.0, 0.0, 1.0)),
     "post_exposure": ("float", 0.0),
     "post_gamma": ("float", 1.0),
     "post_bloom_intensity": ("float", 0.45),
@@ -163,6 +169,17 @@ class Piece:
                 texture.repeat_x = True
             self.program[name].value = len(self.textures)
             self.textures.append(texture)
+        return self
+
+    def levels(self, name: str, levels: Sequence[np.ndarray]) -> Piece:
+        """Binds float16 `levels` (h, w, components), the largest first, to the sampler `name`, filtered in and between them."""
+        height, width, components = levels[0].shape
+        texture = self.ctx.texture((width, height), components, levels[0].tobytes(), dtype="f2", alignment=1)
+        mip_levels.build(self.ctx, texture, levels[0], list(levels[1:]))
+        texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        texture.repeat_x = texture.repeat_y = False
+        self.program[name].value = len(self.textures)
+        self.textures.append(texture)
         return self
 
     def draw(self, size: tuple[int, int]) -> np.ndarray:

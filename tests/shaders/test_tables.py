@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import orbit_table
-from blackhole_gl.render import mip_levels
+from blackhole_gl.render import mip_levels, star_index
 from blackhole_gl.render.tables import Tables
 from blackhole_gl.scene import Scene, catalogue
+from blackhole_gl.scene import tables as catalogue_tables
 from blackhole_gl.scene.catalogue import CatalogueError
 from blackhole_gl.scene.tables import Number, Table
 
@@ -73,6 +74,34 @@ def test_mip_levels_are_means_and_no_driver_is_asked_for_them(ctx: moderngl.Cont
             np.testing.assert_allclose(found, exact, atol=1e-3)  # float16 has 11 bits, and each level is rounded
     assert ctx.error == "GL_NO_ERROR"
     texture.release()
+
+
+def test_a_table_may_bring_its_own_levels(ctx: moderngl.Context) -> None:
+    """Under them are means of the last."""
+    levels = [np.full((8 >> k, 16 >> k, 1), 0.1 + 0.2 * k, np.float32) for k in range(3)]
+    texture = ctx.texture((16, 8), 1, levels[0].tobytes(), dtype="f4")
+    mip_levels.build(ctx, texture, levels[0], levels[1:])
+    texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.NEAREST)
+    program = ctx.program(vertex_shader=WHOLE, fragment_shader=READ_LEVEL)
+    target = ctx.framebuffer([ctx.texture((1, 1), 4, dtype="f4")])
+    target.use()
+    for level in range(5):
+        texture.use()
+        program["level"] = level
+        ctx.vertex_array(program, []).render(moderngl.TRIANGLES, vertices=3)
+        found = np.frombuffer(target.read(components=1, dtype="f4"), np.float32)
+        assert found[0] == pytest.approx(0.1 + 0.2 * min(level, 2))
+    texture.release()
+
+
+@pytest.mark.parametrize("second", [(4, 4, 1), (8, 16, 1), (4, 8, 2)])
+def test_a_level_of_another_size_is_refused_by_its_number(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, second: tuple[int, ...]) -> None:
+    monkeypatch.setattr(star_index, "haze", lambda: (np.zeros((8, 16, 1), np.float32), np.zeros(second, np.float32)))
+    catalogue_tables._function.cache_clear()
+    own = replace(ORBIT, name="own_levels", make="blackhole_gl.render.star_index:haze", of=(), filter="mipmap")
+    with pytest.raises(CatalogueError, match=r"mine.glsl: own_levels: .* made level 1 as float32 .*; allowed, with the filter mipmap, is float32 \(4, 8, 1\)"):
+        Tables(ctx).of(declaring(own), Scene())
+    catalogue_tables._function.cache_clear()
 
 
 def test_a_table_is_made_anew_when_what_it_depends_on_changes_and_only_then(ctx: moderngl.Context) -> None:

@@ -1,0 +1,172 @@
+/*---
+label = "The real sky"
+summary = "118,000 measured stars with their colours, fainter ones by their law, and a galaxy band where the Milky Way is."
+source = "van Leeuwen 2007 (Hipparcos, the new reduction); temperatures by Ballesteros 2012; the band's clouds are invented"
+slot = "sky"
+rank = 20
+stars = 15
+
+[parameters.star_brightness]
+default = 1.0
+range = [0.0, 20.0]
+unit = "×"
+help = "Brightness of the stars."
+
+[parameters.galaxy_brightness]
+default = 0.5
+range = [0.0, 20.0]
+unit = "×"
+help = "Brightness of the Milky Way."
+
+[parameters.star_size]
+default = 0.00025
+range = [0.0, 0.01]
+unit = "rad"
+help = "Angular radius of a star where pixels are smaller than that: under high magnification stars become arcs of bounded brightness."
+
+[parameters.yaw_deg]
+default = 0.0
+range = [-360.0, 360.0]
+unit = "°"
+help = "Turn of the sky about the hole's axis. At 0, with no pitch and no roll, right ascension is the azimuth and the celestial north pole is on the axis."
+
+[parameters.pitch_deg]
+default = 0.0
+range = [-90.0, 90.0]
+unit = "°"
+help = "How far the vernal equinox is lifted above the equatorial plane."
+
+[parameters.roll_deg]
+default = 0.0
+range = [-180.0, 180.0]
+unit = "°"
+help = "Turn of the sky about the vernal equinox, before the others."
+
+[parameters.frequency_shift]
+default = true
+help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
+
+[tables.catalogue_cells]
+make = "blackhole_gl.render.star_index:cells"
+constants = "blackhole_gl.render.star_index:CONSTANTS"
+
+[tables.catalogue_entries]
+make = "blackhole_gl.render.star_index:entries"
+
+[tables.catalogue_haze]
+make = "blackhole_gl.render.star_index:haze"
+filter = "mipmap"
+
+[numbers.catalogue_attitude]
+make = "blackhole_gl.render.sky_attitude:attitude"
+of = ["sky.catalogue.yaw_deg", "sky.catalogue.pitch_deg", "sky.catalogue.roll_deg"]
+type = "vec4"
+---*/
+#include "common/rotation.glsl"
+#include "common/sky_cube.glsl"
+#include "common/star_light.glsl"
+
+// One look-up tells where a pixel's cell has its list of stars, in the grid for footprints of its size; all stars whose kernels reach the pixel are in it. As
+// the footprint grows towards the next grid's, the stars which that one does not list fade into a haze, whose levels are made for this
+// (blackhole_gl/render/star_index.py): no light is lost or counted twice.
+
+uniform sampler2D catalogue_cells;   // these two are nearest: docs/llvmpipe.md, texels
+uniform sampler2D catalogue_entries;
+uniform sampler2D catalogue_haze;    // the galaxy's radiance, 0…1, and the haze in stars of Hp = 0 a steradian
+
+const float CATALOGUE_REACH = 0.003;      // rad, of kernels in the finest grid
+const float CATALOGUE_STAR = 1.2e-4;      // radiance × sr of a star of Hp = 0
+const float CATALOGUE_GALAXY = 0.06;      // radiance of its brightest part
+
+// The stars of a cell.
+struct StarList {
+    float first, end;  // entries
+    float fading;      // how much of those is left that the next grid does not list
+};
+
+// Of how wide a kernel the finest grid's is, in octaves.
+float catalogue_level(SkySpot spot) {
+    return 0.5 * log2(max(spot.reach2, 1e-14) * (4.0 / (CATALOGUE_REACH * CATALOGUE_REACH)));
+}
+
+StarList star_list(SkyPlace at, float level) {
+    float grid = clamp(floor(level), 0.0, float(CATALOGUE_LEVELS - 1));
+    float cells = float(CATALOGUE_CELLS >> int(grid));
+    vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5) + vec2(at.face * cells, 2.0 * (float(CATALOGUE_CELLS) - cells));
+    float number = textureLod(catalogue_cells, cell / vec2(textureSize(catalogue_cells, 0)), 0.0).x;
+    float first = floor(number * 0.0625);
+    return StarList(first, first + number - 16.0 * first, clamp(1.0 + grid - level, 0.0, 1.0));
+}
+
+vec4 list_entry(float entry, vec2 texel) {
+    float row = floor(entry * (1.0 / float(CATALOGUE_ROW)));
+    return textureLod(catalogue_entries, (vec2(entry - row * float(CATALOGUE_ROW), row) + 0.5) * texel, 0.0);
+}
+
+float star_flux(vec4 entry, StarList list) {
+    return entry.w < 0.0 ? -entry.w * list.fading : entry.w;
+}
+
+// `room`: square of a distance, in half kernels.
+StarLight star_light(SkySpot spot, StarList list, float room) {
+    StarLight stars = StarLight(0.0, 0.0, 0.0, 0.0);
+    vec2 texel = 1.0 / vec2(textureSize(catalogue_entries, 0));
+    float entry = list.first;
+    do {
+        vec4 star = list_entry(entry, texel);
+        vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
+        float away2 = dot(d, d);
+        float single = entry < list.end ? star_flux(star, list) : 0.0;
+        float flux = single * star_fall(away2);
+        stars.flux += flux;
+        stars.heat += flux * star_kelvin(star.w);
+        stars.near += single * (room - away2) > 0.0 ? 1.0 : 0.0;
+        entry += 1.0;
+    } while (entry < list.end);
+    return stars;
+}
+
+// The galaxy's radiance, and the haze of stars in stars of Hp = 0 a steradian.
+vec4 galaxy_and_haze(SkyPlace at, float level) {
+    float axis = floor(0.5 * at.face);
+    vec2 tile = vec2(axis, at.face - 2.0 * axis) + 0.5 + 0.4375 * at.place;
+    vec4 light = textureLod(catalogue_haze, tile * vec2(1.0 / 3.0, 0.5), clamp(level, 0.0, float(CATALOGUE_LEVELS)));
+    return light * vec4(vec3(CATALOGUE_GALAXY * sky_catalogue_galaxy_brightness), 1.0);
+}
+
+// The observer's shift in colour, and as a factor of the light.
+vec2 sky_shift(float energy) {
+#if !SKY_CATALOGUE_FREQUENCY_SHIFT
+    energy = 1.0;
+#endif
+    float boost = energy * energy;
+    return vec2(energy, boost * boost);
+}
+
+vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star) {
+    vec2 shift = sky_shift(energy);
+    SkySpot spot = sky_spot(direction, right, up, sky_catalogue_star_size);
+    StarList list = star_list(sky_place(unturned(catalogue_attitude, direction)), catalogue_level(spot));
+    float entry = list.first + float(n);
+    star = list_entry(entry, 1.0 / vec2(textureSize(catalogue_entries, 0)));
+    float flux = entry < list.end ? star_flux(star, list) : 0.0;
+    vec3 light = blackbody_colour(star_kelvin(star.w) * shift.x) * (flux * CATALOGUE_STAR * sky_catalogue_star_brightness * shift.y);
+    vec4 back = vec4(-catalogue_attitude.xyz, catalogue_attitude.w);
+    star = vec4(unturned(back, star.xyz), max(sky_catalogue_star_size, 3.2e-7)); // as in sky_spot
+    return light;
+}
+
+vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near) {
+    vec2 shift = sky_shift(energy);
+    vec4 attitude = catalogue_attitude;
+    SkySpot spot = sky_spot(unturned(attitude, direction), finer * unturned(attitude, right), finer * unturned(attitude, up), sky_catalogue_star_size);
+    float level = catalogue_level(spot);
+    SkyPlace at = sky_place(spot.centre);
+    float room = star_room(spot, finer, sky_catalogue_star_size);
+    StarLight stars = star_light(spot, star_list(at, level), room * room);
+    stars_near = stars.near;
+    if (finer < 1.0) stars.flux = stars.heat = 0.0;
+    vec4 behind = galaxy_and_haze(at, level);
+    stars.haze = behind.a;
+    return (star_radiance(stars, spot.kernel, shift.x) * (CATALOGUE_STAR * sky_catalogue_star_brightness) + behind.rgb) * shift.y;
+}
