@@ -15,11 +15,11 @@ import numpy as np
 from . import reference
 from .glsl.declared import Fate
 from .output.files import write_whole
-from .physics import observer, tilted_disk
+from .physics import observer, observer_frames, tilted_disk
 from .physics.space_time import ray_model, space_time
 from .plan import plan
 from .render.frame import Renderer
-from .scene import Disk, Scene, met
+from .scene import Camera, Disk, Scene, met
 from .shapes import Float, Int
 from .text_files import TextError, decimal_comma, read_text
 
@@ -36,7 +36,7 @@ def _numbered(columns: Iterable[str]) -> list[str]:
     return [f"{name}{n}" for n in range(_CROSSINGS) for name in columns]
 
 
-_HEADER = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA)]
+_HEADER = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA), "energy"]
 
 
 class RayListError(ValueError):
@@ -72,6 +72,7 @@ class TracedRays:
         crossing_theta: (N, 3) polar angle in radians.
         crossing_k_r, crossing_k_theta: (N, 3) the covariant momentum of the photon that arrives, in Boyer–Lindquist coordinates and units
             of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric, and through the shader in a scene with media.
+        energy: (N,) E_infinity/E_camera of the photon that arrives: the inverse of the shift that the camera's place and motion give to the sky's light.
     """
 
     fate: Int[np.ndarray, " N"]
@@ -85,6 +86,7 @@ class TracedRays:
     crossing_theta: Float[np.ndarray, "N 3"]
     crossing_k_r: Float[np.ndarray, "N 3"]
     crossing_k_theta: Float[np.ndarray, "N 3"]
+    energy: Float[np.ndarray, " N"]
 
 
 def columns(scene: Scene) -> tuple[str, str]:
@@ -144,7 +146,8 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
     """`rays` (N, 2) through the shader that pictures use."""
     if len(rays) == 0:
         return unknown(0)
-    hits, shifts, ray_plan = renderer.trace_listed(scene, local_vectors(rays, scene))
+    local = local_vectors(rays, scene)
+    hits, shifts, ray_plan = renderer.trace_listed(scene, local)
     r, theta, phi = _spherical(tilted_disk.placed(hits.crossing, ray_plan.scene.disk))
     none = r == 0.0
     innermost = 0.0 if ray_plan.scene.disk.plunging else ray_plan.space_time.matter_isco_radius(ray_plan.scene.disk)
@@ -161,6 +164,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
         np.where(none, np.nan, theta),
         momentum[..., 0],
         momentum[..., 1],
+        observer.observe(ray_plan.scene).energies(local),
     )
 
 
@@ -184,7 +188,7 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
         distance=camera.distance,
         inclination_deg=camera.inclination_deg,
         azimuth_deg=camera.azimuth_deg,
-        observer=camera.observer,
+        **_motion(camera),
         orders=_CROSSINGS,
         orbit=scene.disk.orbit,
         falls=disk.plunging,
@@ -198,7 +202,14 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
     plane = found.crossings.of(1) if disk.tilt_deg else found.equatorial
     g = _tilted_shift(plane, found.lambda_, scene, disk) if disk.tilt_deg else found.g
     r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (plane.r, plane.phi, g, plane.theta, plane.k_r, plane.k_theta))
-    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta)
+    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta, found.energy)
+
+
+def _motion(camera: Camera) -> dict[str, Any]:
+    """What the twins are told of the observer."""
+    if not camera.aberration:  # then light comes from where who is at rest sees it
+        return {"observer": "zamo" if camera.observer == "zamo" else "static"}
+    return {"observer": camera.observer, "velocity": tuple(observer_frames.boost(camera)), "fall_from": camera.fall_from}
 
 
 def _spherical(place: Float[np.ndarray, "*points 3"]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -220,7 +231,7 @@ def _tilted_shift(plane: reference.Crossings, lam: Float[np.ndarray, " N"], scen
 def unknown(count: int) -> TracedRays:
     """`count` rays of which nothing is known."""
     nothing, none, number = np.full((count, _CROSSINGS), np.nan), np.zeros(count, int), np.full(count, np.nan)
-    return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing)
+    return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing, number)
 
 
 def write(path: Path, rays: TracedRays, digits: int, listed: RayList | None = None) -> None:
@@ -237,7 +248,7 @@ def write(path: Path, rays: TracedRays, digits: int, listed: RayList | None = No
     writer.writerow([*_HEADER, *(listed.names if listed else ())])
     for i, fate in enumerate(rays.fate):
         ends = _texts((theta[i], phi[i]), digits)
-        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i)), digits)
+        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i), rays.energy[i]), digits)
         writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there, *(listed.texts[i] if listed else ())])
     write_whole(path, text.getvalue().encode())
 

@@ -58,11 +58,10 @@ float limb_factor(float r, DiskLight light, float g) {
 // on each by its own switch (common/disk_orbit.glsl says how g is split). The observer's own shift counts as gravity's.
 vec3 disk_radiance(float r, DiskLight light, bool inbound) {
     vec2 shift = disk_shift(r, light, inbound);
-    vec2 colour_shift = disk_colour_shift(shift, light.energy);
-    float power_shift = DISK_BEAMING == 1 ? shift.y : 1.0;
+    vec2 colour_shift = disk_colour_shift(shift, light.energy.x), power_shift = disk_power_shift(shift, light.energy.y);
     float temperature = disk_temperature(r);
     float power = temperature * temperature;
-    power *= power * pow(max(colour_shift.x * power_shift, 1e-6), disk_beaming_exponent);
+    power *= power * pow(max(power_shift.x * power_shift.y, 1e-6), disk_beaming_exponent);
     float brightness = power * disk_emission_strength * EMISSION_UNIT * limb_factor(r, light, shift.x * shift.y);
 #if DISK_COLOUR_WHITE
     return vec3(brightness);

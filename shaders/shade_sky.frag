@@ -28,6 +28,7 @@
 #include "common/observer.glsl"
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
+#include "common/sky_beaming.glsl"
 #slot sky
 
 #if SKY_STARS
@@ -50,13 +51,13 @@ void main() {
     right = whole_right ? right : (whole_up ? cross(up, direction) : torn);
     up = whole_up ? up : cross(direction, right);
 
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(picture_place(gl_FragCoord.xy))), 1e-6);
+    vec2 energy = pixel_energies(pixel_direction(picture_place(gl_FragCoord.xy)));
 #if SKY_STARS
     float stars_near;
-    vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy, finer, stars_near);
+    vec3 light = escaped * sky_brightness * sky_beaming(energy) * sky_radiance(direction, right, up, energy.x, finer, stars_near);
     radiance = vec4(clamp(light, 0.0, BRIGHTEST), escaped * (stars_near < 1.5 ? stars_near : -1.0));
 #else
-    vec3 light = escaped * sky_brightness * sky_radiance(direction, right, up, energy);
+    vec3 light = escaped * sky_brightness * sky_beaming(energy) * sky_radiance(direction, right, up, energy.x);
     radiance = vec4(clamp(light, 0.0, BRIGHTEST), 0.0);
 #endif
 }

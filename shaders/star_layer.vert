@@ -10,6 +10,7 @@
 #include "common/observer.glsl"
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
+#include "common/sky_beaming.glsl"
 #slot sky
 
 uniform sampler2D pixels;    // x, y of a point's pixel each, row by row
@@ -119,12 +120,12 @@ void main() {
     vec3 mixed = square ? corner.direction - right.direction - up.direction + own.direction : vec3(0.0);
     Place middle = place_at(own.direction, x, y, mixed, vec2(0.0));
 
-    float energy = 1.0 / max(pixel_energy_ratio(pixel_direction(vec2(here) + 0.5)), 1e-6);
+    vec2 energy = pixel_energies(pixel_direction(vec2(here) + 0.5));
     vec4 shown = gram_of(finer.x * middle.right, finer.y * middle.up);
     Star first = Star(0, own.direction, 0.0), second = first;
     vec4 found;
     for (int n = 0; n < SKY_STARS; ++n) {
-        vec3 light = sky_star(n, own.direction, finer.x * x.once, finer.y * y.once, energy, found);
+        vec3 light = sky_star(n, own.direction, finer.x * x.once, finer.y * y.once, energy.x, found);
         vec2 away = offset_of(found.xyz, middle);
         vec3 image = spread_of(shown, found.w);
         bool near = 4.0 * longest(image) > LONG * LONG ? reaches(away, image) : all(lessThan(abs(away), vec2(NEAR)));
@@ -150,7 +151,7 @@ void main() {
 
     at.right *= finer.x;
     at.up *= finer.y;
-    vec3 light = sky_star(star.n, at.direction, at.right, at.up, energy, found); // once more: how much of it is a haze goes by the slopes
+    vec3 light = sky_beaming(energy) * sky_star(star.n, at.direction, at.right, at.up, energy.x, found); // once more: how much of it is a haze goes by the slopes
     vec4 gram = gram_of(at.right, at.up);
     vec3 spread = spread_of(gram, found.w);
     float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);

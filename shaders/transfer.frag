@@ -98,9 +98,9 @@ Here here_at(Orbit orbit, State s, Sight first, vec3 end, vec3 left) {
     here.gains = here.loses = vec3(0.0);
     here.step = here.fine = here.edge = 1e30;
     here.within = 0;
-    Sight sight = Sight(here.x, here.towards, first.energy, true, ray_momentum(orbit, s), first.right, first.up);
+    Sight sight = Sight(here.x, here.towards, first.energy, first.beaming, true, ray_momentum(orbit, s), first.right, first.up);
     int bit = 1;
-#each medium : for (int i = 0; i < medium_$key_count; ++i) add_matter(here, bit, medium_$key_distance(i, here.x), medium_$key_scale(i, here.x), medium_$key_matter(i, sight), MEDIUM_$KEY_BOLOMETRIC == 1, sight.energy);
+#each medium : for (int i = 0; i < medium_$key_count; ++i) add_matter(here, bit, medium_$key_distance(i, here.x), medium_$key_scale(i, here.x), medium_$key_matter(i, sight), MEDIUM_$KEY_BOLOMETRIC == 1, sight.beaming);
     float rate = ray_affine_rate(orbit, s);
     here.gains *= rate;
     here.loses *= rate;
@@ -149,7 +149,7 @@ void main() {
         if (found.kind >= 0 && hits.fate == MET) end = found.place;
     }
     bool any = is_medium(met.kind);
-    Sight first = sight_of(met, 1.0 / max(pixel_energy_ratio(local), 1e-6));
+    Sight first = sight_of(met, pixel_energies(local));
 
     Light light[ORDERS + 1];
     for (int n = 0; n <= ORDERS; ++n) light[n] = Light(vec3(0.0), vec3(1.0));

@@ -67,4 +67,4 @@ def of(scene: Scene) -> Compass:
         ValueError: the camera is not outside the horizon.
     """
     observer = observe(scene)
-    return seen(Axes.of(observer), -observer.n, space_time(scene).spin)
+    return seen(Axes.of(observer), observer.hole @ np.stack([observer.n, observer.e_theta, observer.e_phi]), space_time(scene).spin)

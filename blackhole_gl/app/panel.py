@@ -27,6 +27,7 @@ _TITLES = {
 }  # fmt: skip
 _ART = ("Art", "What makes a picture and no physics names: as you like it.")
 _COST = "A flat frame, the unit of cost, is the same picture with light running straight."
+_OF_MOTION = frozenset(f"camera.{name}" for name in ("velocity_right", "velocity_up", "velocity_forward", "aberration", "doppler_colour", "beaming"))
 _OPEN_AT_START = ("hole", "camera", "disk")
 
 
@@ -184,10 +185,14 @@ def _plug_in_by_key() -> Mapping[str, catalogue.PlugIn]:
 
 
 def _is_active(item: Field, scene: Scene) -> bool:
-    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of a hole or a field, of automatic exposure, and those of plug-ins that take
-    part."""
+    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of one that falls, of a hole or a field, of automatic exposure, and those
+    of plug-ins that take part."""
     if item.key in ("camera.fov_deg", "camera.field_m"):
         return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
+    if item.key in _OF_MOTION:
+        return not math.isinf(scene.camera.distance)
+    if item.key == "camera.fall_from":
+        return scene.camera.observer == "fall"
     if item.key.startswith(("hole.", "rays.field_")):
         return is_field(scene) != item.key.startswith("hole.")
     if item.key == "post.beam_uas":

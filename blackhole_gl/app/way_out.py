@@ -8,7 +8,6 @@ import moderngl
 import numpy as np
 
 from ..physics.observer import observe
-from ..render.drawing_matrices import Axes
 from ..scene import Scene
 from .area import Area
 from .camera_control import range_by_hand, shadow_angle
@@ -59,7 +58,7 @@ def out_of_sight(scene: Scene, aspect: float) -> str:
     if math.isinf(camera.distance):
         return ""
     observer = observe(scene)
-    away = math.acos(min(max(float(Axes.of(observer).back @ observer.n), -1.0), 1.0))
+    away = math.acos(min(max(-float((observer.hole @ observer.look)[0]), -1.0), 1.0))
     corner = math.atan(math.tan(math.radians(0.5 * camera.fov_deg)) * math.hypot(1.0, aspect))
     return "The hole is out of sight." if away > corner + shadow_angle(scene) else ""
 

@@ -85,9 +85,7 @@ def measure(scene: Scene, size: tuple[int, int], progress: Callable[[float], Non
     found = Stokes(*(np.concatenate([getattr(part, name) for part in parts]).reshape(height, width) for name in ("i", "q", "u")))
     if not found.i.any():
         raise SceneError("disk", "no light of the disk arrives at the camera")
-    hole = labels.places(observer, scene, width / height, _towards_hole())
+    hole = labels.places(observer, scene, width / height, observer.hole)
     return PolarizationMaps(found, (float(hole[0]) * height, float(hole[1]) * height))
 
 
-def _towards_hole() -> Float[np.ndarray, " 3"]:
-    return np.array([-1.0, 0.0, 0.0])

@@ -139,7 +139,7 @@ def shadow_edge(observer: Observer, angles: Float[Array, " N"]) -> Float[Array, 
         square, slope = 1.0 + w * w * (c2 + w * (c3 + w * c4)), w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4))
         w_rate = -np.sign(slope) * np.sqrt(np.maximum(square, 0.0))
         seen = np.linalg.solve(observer.tetrad, np.stack([np.ones_like(lam), w_rate, -up, aside]))
-        away, around = screen_angles((seen[1:] / seen[0]).T)
+        away, around = screen_angles((seen[1:] / seen[0]).T @ _about_hole(observer))
     return _along(angles, around, away)
 
 
@@ -147,7 +147,17 @@ def directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Ar
     """Local directions (…, 3) at `angles` on the screen, from right towards up, `away` from the hole's centre: radians, or M for a far observer."""
     if observer.w == 0.0:
         return parallel_rays(away * np.cos(angles), away * np.sin(angles))
-    return local_directions(away, angles)
+    return local_directions(away, angles) @ _about_hole(observer).T
+
+
+def _about_hole(observer: Observer) -> Float[Array, "3 3"]:
+    """The turn (3, 3) that takes straight inwards to where a moving observer sees the hole's centre, the shortest way."""
+    hole = observer.hole
+    if hole[0] == -1.0:
+        return np.eye(3)
+    across = np.array([0.0, hole[2], -hole[1]])  # inwards × hole
+    skew = np.array([[0.0, -across[2], across[1]], [across[2], 0.0, -across[0]], [-across[1], across[0], 0.0]])
+    return np.eye(3) + skew + skew @ skew / (1.0 - min(hole[0], 1.0 - 1e-9))
 
 
 def _along(angles: Float[Array, " N"], around: Float[Array, " M"], away: Float[Array, " M"]) -> Float[Array, " N"]:

@@ -3,13 +3,13 @@
 A local direction n = (n_r, n_θ, n_φ) of the observer's orthonormal frame is where a pixel looks; the photon's momentum is −n.
 Looking at the hole is (−1, 0, 0); right on the screen is +e_φ, up is −e_θ. A camera that looks elsewhere turns this frame: `look_rotation`.
 
-Everything that a ray starts with is linear in (1, n): one 4×4 matrix, ``tetrad · look``, `Observer.observer_map`, serves every observer.
+Everything that a ray starts with is linear in (1, n): one 4×4 matrix, ``tetrad · boost · look``, `Observer.observer_map`, serves every observer.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,10 +17,14 @@ from numpy.typing import ArrayLike
 
 from ..scene import Camera, Scene, SceneError
 from ..shapes import Float
+from . import observer_frames
 from .space_time import space_time
 
 # Half a picture's height at distance 1 per degree of view is no more than this; a direction to the hole less ahead than its inverse is off every screen.
 _LEAST_AHEAD = 1e-3
+
+_INWARDS = np.array([-1.0, 0.0, 0.0])
+_SEEN = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -28,13 +32,17 @@ class Observer:
     """The camera in the space-time of a scene's ray model.
 
     Attributes:
-        kind: ``static``, ``zamo`` or ``infinity``, as used (a static observer gives way to the ZAMO in the ergosphere).
+        kind: ``static``, ``zamo``, ``circular``, ``rain``, ``fall`` or ``infinity``, as used (a static observer gives way to the ZAMO in the ergosphere).
         spin: a* of the space-time the observer sits in (0 in Schwarzschild and flat space).
         w: M/r; 0 at infinity.
         n, e_theta, e_phi: world unit vectors at the camera's place, float64 (3,).
         tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) = tetrad · (1, n_r, n_θ, n_φ), still to be divided by E; primes are derivatives in Mino time
-            (M = 1) along the ray traced backwards (docs/physics.md).
+            (M = 1) along the ray traced backwards (docs/physics.md). Of the moving observer, or of one at rest in his place where aberration is off.
         look: float64 (3, 3) rotation of the view: n = look · v, with v = (−1, 0, 0) for the middle of the picture.
+        zamo: float64 (4, 4): (E, n) in the frame of zero angular momentum from (1, n).
+        hole: local unit vector (3,) to the hole's centre, as the aberration of straight inwards has it.
+        colour, beaming: float64 (4,): the energy that light from n shows, · (1, n), as it counts for colours and for brightness: (1, 0, 0, 0) unless the
+            observer's motion is not to count.
     """
 
     kind: str
@@ -45,12 +53,31 @@ class Observer:
     e_phi: Float[np.ndarray, " 3"]
     tetrad: Float[np.ndarray, "4 4"]
     look: Float[np.ndarray, "3 3"]
+    zamo: Float[np.ndarray, "4 4"] = field(default_factory=lambda: np.eye(4))
+    hole: Float[np.ndarray, " 3"] = field(default_factory=lambda: _INWARDS.copy())
+    colour: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
+    beaming: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
 
     @cached_property
     def observer_map(self) -> Float[np.ndarray, "4 4"]:
         """tetrad · look, float64 (4, 4): what a pixel's ray starts with from (1, v)."""
-        turned = self.tetrad.copy()
-        turned[:, 1:] = self.tetrad[:, 1:] @ self.look
+        return self._of_view(self.tetrad)
+
+    @cached_property
+    def shown_energies(self) -> Float[np.ndarray, "2 4"]:
+        """`colour` and `beaming` from (1, v), float64 (2, 4)."""
+        return self._of_view(np.stack([self.colour, self.beaming]))
+
+    def energies(self, directions: Float[np.ndarray, "*rays 3"]) -> Float[np.ndarray, "*rays"]:
+        """E_infinity/E_observer (…) of light from local `directions` (…, 3), as colours have it; 1 for a far observer."""
+        if self.w == 0.0:
+            return np.ones(np.shape(directions)[:-1])
+        local = np.asarray(directions, float)
+        return (self.tetrad[0, 0] + local @ self.tetrad[0, 1:]) / (self.colour[0] + local @ self.colour[1:])
+
+    def _of_view(self, rows: Float[np.ndarray, "rows 4"]) -> Float[np.ndarray, "rows 4"]:
+        turned = rows.copy()
+        turned[:, 1:] = rows[:, 1:] @ self.look
         return turned
 
     @cached_property
@@ -61,8 +88,8 @@ class Observer:
     @cached_property
     def hole_on_screen(self) -> tuple[float, float]:
         """Where the direction to the hole meets a screen at distance 1 ahead, (right, up); far off the picture for a hole that is not ahead."""
-        ahead, down, right = -self.look[0] * np.array([-1.0, 1.0, 1.0])
-        return (right / ahead, -down / ahead) if ahead > _LEAST_AHEAD else (1e6, 1e6)
+        back, down, right = self.hole @ self.look
+        return (-right / back, down / back) if back < -_LEAST_AHEAD else (1e6, 1e6)
 
 
 def cos_sin_deg(degrees: float) -> tuple[float, float]:
@@ -76,7 +103,7 @@ def observe(scene: Scene) -> Observer:
     """The observer of `scene`.
 
     Raises:
-        ValueError: the camera is not outside the horizon; the text says by how much.
+        ValueError: the camera is not outside the horizon, or there is no such observer in its place; the text says why.
     """
     where, camera = space_time(scene), scene.camera
     look = look_rotation(camera)
@@ -86,13 +113,42 @@ def observe(scene: Scene) -> Observer:
     e_theta = np.array([cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta])
     e_phi = np.array([-sin_phi, cos_phi, 0.0])
     if math.isinf(camera.distance):
+        observer_frames.refuse_far(camera)
         return Observer("infinity", where.observer_spin, 0.0, n, e_theta, e_phi, np.diag([1.0, -1.0, 1.0, 1.0]), look)
+    _outside(camera.distance, where.horizon_radius, where.horizon_spin)
     r = 2.0 * camera.distance  # M = 1 from here on
-    if where.kind == "flat":
-        _outside(camera.distance, where.horizon_radius, where.horizon_spin)
-        return Observer("static", 0.0, 1.0 / r, n, e_theta, e_phi, np.diag([1.0, -1.0, r, r]), look)
-    kind, tetrad = _kerr_tetrad(r, cos_theta, sin_theta, where.observer_spin, camera.observer)
-    return Observer(kind, where.observer_spin, 1.0 / r, n, e_theta, e_phi, tetrad, look)
+    flat = where.kind == "flat"
+    frame = observer_frames.flat_frame(r, camera) if flat else observer_frames.hole_frame(r, cos_theta, sin_theta, where, camera)
+    seen = Observer(frame.kind, 0.0 if flat else where.observer_spin, 1.0 / r, n, e_theta, e_phi, frame.tetrad, look, frame.zamo)
+    return _moving(seen, frame, camera)
+
+
+def is_moving(camera: Camera) -> bool:
+    """Whether the observer of `camera` moves against one at rest in his place."""
+    return camera.observer not in ("static", "zamo") or any((camera.velocity_right, camera.velocity_up, camera.velocity_forward))
+
+
+def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Observer:
+    """`seen` with the boost of `camera`, and with what of its motion is to be seen."""
+    if not is_moving(camera):
+        return seen
+    moves = observer_frames.lorentz(observer_frames.boost(camera))
+    zamo = frame.zamo @ moves
+    motion = np.linalg.solve(frame.rest, zamo)  # (E, n) at rest there from the observer's (1, n)
+    energies = {True: _SEEN, False: motion[0]}
+    if not camera.aberration:
+        at_rest = np.linalg.inv(motion)
+        energies = {True: at_rest[0], False: _SEEN}
+        zamo, moves = frame.rest, np.linalg.solve(frame.zamo, frame.rest)
+    hole = np.linalg.solve(zamo, frame.rest @ np.array([1.0, *_INWARDS]))[1:] if camera.aberration else _INWARDS
+    return replace(
+        seen,
+        tetrad=seen.tetrad @ moves,
+        zamo=zamo,
+        hole=hole / np.linalg.norm(hole),
+        colour=energies[camera.doppler_colour],
+        beaming=energies[camera.beaming],
+    )
 
 
 def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
@@ -120,33 +176,6 @@ def _outside(distance: float, horizon: float, a: float) -> None:
     """Raises ValueError where a camera at `distance` is not outside the horizon, both in r_s."""
     if distance <= horizon:
         raise ValueError(f"camera.distance: got {distance:g} r_s; at spin {a:g} the horizon is at {horizon:.6g} r_s and the camera must be outside it")
-
-
-def _kerr_tetrad(r: float, cos_theta: float, sin_theta: float, a: float, observer: str) -> tuple[str, Float[np.ndarray, "4 4"]]:
-    """Kind and tetrad of the observer, from the ZAMO's (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted along e_φ for the static observer."""
-    r_plus = 1.0 + math.sqrt((1.0 - a) * (1.0 + a))
-    _outside(0.5 * r, 0.5 * r_plus, a)
-    sigma = r * r + (a * cos_theta) ** 2
-    delta = (r - r_plus) * (r - (2.0 - r_plus))
-    big_a = (r * r + a * a) ** 2 - delta * (a * sin_theta) ** 2
-    lapse = math.sqrt(sigma * delta / big_a)
-    omega = 2.0 * a * r / big_a
-    ring = math.sqrt(big_a / sigma)
-    beta = 0.0
-    outside_ergosphere = r * r - 2.0 * r + (a * cos_theta) ** 2 > 0.0
-    if observer == "static" and outside_ergosphere:
-        beta = -omega * ring * sin_theta / lapse
-    kind = "static" if observer == "static" and outside_ergosphere else "zamo"
-    gamma = 1.0 / math.sqrt((1.0 - beta) * (1.0 + beta))
-    drag = omega * ring * sin_theta
-    matrix = np.zeros((4, 4))
-    matrix[0, 0] = gamma * (lapse + drag * beta)
-    matrix[0, 3] = -gamma * (lapse * beta + drag)
-    matrix[1, 1] = -math.sqrt(delta * sigma) / (r * r)
-    matrix[2, 2] = math.sqrt(sigma)
-    matrix[3, 0] = -ring * gamma * beta
-    matrix[3, 3] = ring * gamma
-    return kind, matrix
 
 
 def local_directions(psi: ArrayLike, chi: ArrayLike) -> Float[np.ndarray, "*rays 3"]:

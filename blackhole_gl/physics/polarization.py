@@ -175,10 +175,10 @@ def arriving(observer: Observer, directions: Float[Array, "*rays 3"], constant: 
     ahead = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     right, above = across(ahead, np.array([0.0, -1.0, 0.0]))
     zamo = _Zamo(spin, 1.0 / observer.w, float(observer.n[2]), sine)
-    velocity = np.array([0.0, 0.0, -observer.tetrad[3, 0] / observer.tetrad[3, 3]])
+    to_zamo = observer.zamo * np.array([1.0, -1.0, -1.0, -1.0]) * np.array([[1.0], [-1.0], [-1.0], [-1.0]])  # of what moves along a vector, as light along −n
 
     def of(vector: Float[Array, "*rays 3"], time: float) -> Float[Array, "*rays 4"]:
-        return boosted(np.concatenate([np.full_like(vector[..., :1], time), vector], axis=-1), -velocity)
+        return np.concatenate([np.full_like(vector[..., :1], time), vector], axis=-1) @ to_zamo.T
 
     k = of(-ahead, 1.0)
     first, second = zamo.constant(k, of(right, 0.0)), zamo.constant(k, of(above, 0.0))

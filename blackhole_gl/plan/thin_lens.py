@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 
 from ..physics import relativity
+from ..physics.observer import is_moving
 from ..scene import Scene, catalogue, met
 
 MODEL = "screen_lens"
@@ -35,8 +36,8 @@ _LEAST_DISTANCE = 2.0 * 255.0
 
 
 def draws(scene: Scene) -> bool:
-    """Whether the lens may stand for `scene`: far from a hole, with nothing but its sky, and the lens as it comes."""
-    if scene.disk.enabled or not met.is_empty(scene) or scene.camera.distance < _LEAST_DISTANCE:
+    """Whether the lens may stand for `scene`: far from a hole, at rest, with nothing but its sky, and the lens as it comes."""
+    if scene.disk.enabled or not met.is_empty(scene) or scene.camera.distance < _LEAST_DISTANCE or is_moving(scene.camera):
         return False
     return all(scene.get(key) == item.default for key, item in catalogue.plug_ins("ray_model")[MODEL].parameters.items())
 

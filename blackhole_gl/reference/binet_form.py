@@ -152,8 +152,8 @@ def _light(view: View, system: BinetSystem) -> LightRays:
     place = view.place
     if view.at_infinity:
         state = system.start_at_infinity(place, view.screen)
-        l_z = -view.rays[:, 0] * place.sin_theta
+        l_z = -view.resting_rays[:, 0] * place.sin_theta
     else:
-        state = system.start(place, view.rays)
-        l_z = -2.0 * place.r * place.sin_theta * view.rays[:, 2] / math.sqrt((place.r - 1.0) / place.r)
+        state = system.start(place, view.resting_rays)
+        l_z = -2.0 * place.r * place.sin_theta * view.resting_rays[:, 2] / math.sqrt((place.r - 1.0) / place.r)
     return LightRays(system, state, np.ones(len(view.rays)), l_z)

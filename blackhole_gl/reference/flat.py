@@ -51,7 +51,7 @@ def screen_lens(view: View, lens_radius: float = 1.0, lens_shadow: float = 2.598
         direction = np.where(hidden[:, None], 0.0, _bent_by_thin_lens(view, b, lens_radius))
         none = Crossings.none(len(b), view.surfaces, view.orders)
         return Traced(fate, direction, np.zeros(len(b), dtype=np.int64), np.ones(len(b)), l_z_of_straight_rays(view), none)
-    traced = straight(replace(view, rays=_displaced(view, psi, lens_radius)), 0.0)
+    traced = straight(replace(view, rays=_displaced(view, psi, lens_radius), velocity=(0.0, 0.0, 0.0)), 0.0)
     return replace(traced, fate=fate, direction=np.where(hidden[:, None], 0.0, traced.direction), crossings=traced.crossings.without_rays(hidden))
 
 
@@ -78,12 +78,12 @@ def straight(view: View, radius: float) -> Traced:
 
 def lines(view: View) -> tuple[Float[Array, "N 3"], Float[Array, "N 3"]]:
     """Where straight rays begin, in r_s, and the unit vectors that they go along, both (N, 3) in the world."""
-    return _start_at_infinity(view) if view.at_infinity else _start(view.place, view.rays)
+    return _start_at_infinity(view) if view.at_infinity else _start(view.place, view.resting_rays)
 
 
 def l_z_of_straight_rays(view: View) -> Float[Array, " N"]:
     """L_z/E in M of photons on straight rays."""
-    place, rays = view.place, view.rays
+    place, rays = view.place, view.resting_rays
     return -rays[:, 0] * place.sin_theta if view.at_infinity else -2.0 * place.r * place.sin_theta * rays[:, 2]
 
 
@@ -116,8 +116,8 @@ def _from_the_hole(view: View) -> tuple[Array, Array]:
     """(psi, impact parameter of the straight ray in r_s), each (N,)."""
     if view.at_infinity:
         return np.zeros(len(view.rays)), np.hypot(view.screen[:, 0], view.screen[:, 1])
-    sine = np.hypot(view.rays[:, 1], view.rays[:, 2])
-    return np.arctan2(sine, -view.rays[:, 0]), view.place.r * sine
+    sine = np.hypot(view.resting_rays[:, 1], view.resting_rays[:, 2])
+    return np.arctan2(sine, -view.resting_rays[:, 0]), view.place.r * sine
 
 
 def _bent_by_thin_lens(view: View, b: Array, lens_radius: float) -> Array:
@@ -134,6 +134,6 @@ def _displaced(view: View, psi: Array, lens_radius: float) -> Array:
     tangent = np.tan(np.where(ahead, psi, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         moved = np.arctan(tangent - 2.0 * lens_radius / (tangent * view.place.r))
-        across = view.rays[:, 1:] / np.sin(psi)[:, None]
+        across = view.resting_rays[:, 1:] / np.sin(psi)[:, None]
     lensed = np.column_stack([-np.cos(moved), np.sin(moved)[:, None] * across])
-    return np.where((ahead & (psi > 0.0))[:, None], lensed, view.rays)
+    return np.where((ahead & (psi > 0.0))[:, None], lensed, view.resting_rays)

@@ -118,7 +118,8 @@ class ReferenceHits:
         g: (N, orders) E_infinity/E_emitter of a circular emitter at each crossing of the equatorial plane; NaN = no crossing, or inside its ISCO.
         lambda_: (N,) L_z/E of the physical photon in M.
         energy_sign: (N,) sign of its E: -1 for what a ZAMO in the ergosphere sees of light that is bound to the hole.
-        observer: "static" or "zamo": the one used (a static observer gives way to the ZAMO in the ergosphere).
+        energy: (N,) its E over that which the camera measures; NaN for models whose rays are no light in any metric.
+        observer: the one used (a static observer gives way to the ZAMO in the ergosphere).
     """
 
     fate: Int[Array, " N"]
@@ -131,6 +132,7 @@ class ReferenceHits:
     g: Float[Array, "N orders"]
     lambda_: Float[Array, " N"]
     energy_sign: Float[Array, " N"]
+    energy: Float[Array, " N"]
     observer: str
 
     @property

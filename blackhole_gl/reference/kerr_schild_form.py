@@ -40,7 +40,7 @@ from ..shapes import Bool, Float
 from .events import LightRays
 from .hits import Traced
 from .marching import follow
-from .observers import Momenta, Place, momenta
+from .observers import Momenta, Place
 from .registry import View, twin
 
 Array = np.ndarray
@@ -206,11 +206,10 @@ class KerrSchildSystem:
     def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
         """State (10, N) of photons at a finite place."""
         r, cos, sin = place.r, place.cos_theta, place.sin_theta
-        chart = np.where(photons.radial > 0.0, -1.0, 1.0)
+        chart = np.where(photons.radial_rate > 0.0, -1.0, 1.0)
         a = chart * self.spin
         sigma = r * r + (self.spin * cos) ** 2
-        delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
-        root = np.abs(photons.radial) * math.sqrt(sigma * delta)
+        root = np.abs(photons.radial_rate)
         # p_r of the chart, -+(P - root)/Delta +- E, with the difference formed as K/(P + root).
         p_r = chart * (photons.carter_k / (photons.carter_p + root) - photons.energy)
         p_theta = photons.p_theta - a * photons.l_over_sin * cos / r
@@ -261,7 +260,7 @@ def kerr_schild_light(view: View) -> LightRays:
     if view.at_infinity:
         state = system.start_at_infinity(place, view.rays)
     else:
-        state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
+        state = system.start(place, view.momenta(system.spin))
     return LightRays(system, state, state[ENERGY].copy(), -state[L_Z])
 
 

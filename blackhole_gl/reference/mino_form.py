@@ -25,7 +25,7 @@ from ..shapes import Bool, Float
 from .events import LightRays
 from .hits import Traced
 from .marching import follow
-from .observers import Momenta, Place, momenta
+from .observers import Momenta, Place
 from .registry import View, twin
 
 Array = np.ndarray
@@ -104,11 +104,8 @@ class MinoSystem:
 
     def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
         """State (12, N) of photons at a finite place."""
-        r = place.r
-        sigma = r * r + (self.spin * place.cos_theta) ** 2
-        delta = (r - self.r_plus) * (r - 2.0 + self.r_plus)
-        inward = -photons.radial * math.sqrt(sigma * delta) / (r * r)
-        return self._state(place, 1.0 / r, inward, photons.p_theta, photons.l_over_sin, photons.energy)
+        inward = -photons.radial_rate / (place.r * place.r)
+        return self._state(place, 1.0 / place.r, inward, photons.p_theta, photons.l_over_sin, photons.energy)
 
     def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
         """State (12, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
@@ -131,7 +128,7 @@ def mino_light(view: View) -> LightRays:
     if view.at_infinity:
         state = system.start_at_infinity(place, view.rays)
     else:
-        state = system.start(place, momenta(view.rays, place, system.spin, view.observer))
+        state = system.start(place, view.momenta(system.spin))
     return LightRays(system, state, state[ENERGY].copy(), -state[L])
 
 

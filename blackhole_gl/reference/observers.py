@@ -1,22 +1,23 @@
 """The camera as an observer of Kerr space-time: local directions to conserved quantities (float64, M = 1).
 
-The metric is orthonormal in Carter's frame, whose forms are
+A vector X is told here by (U, V, T2, T3), with P = (r^2+a^2)E - aL, E = -X.d_t, L = X.d_phi, and R = Sigma X^r:
 
-    w0 = sqrt(Delta/Sigma) (dt - a sin^2 theta dphi)      w1 = sqrt(Sigma/Delta) dr
-    w2 = sqrt(Sigma) dtheta                               w3 = sin theta/sqrt(Sigma) ((r^2+a^2) dphi - a dt)
+    U = (P + R)/Delta      V = P - R      T2 = Sigma X^theta      T3 = L/sin(theta) - a sin(theta) E
 
-(Carter 1968). Gram-Schmidt on (u, d_r, d_theta, d_phi) leaves e_r and e_theta as they are; u and e_phi lie in the
-plane of w0 and w3, where u is Carter's observer boosted along phi by
+which are Carter's forms (1968) times sqrt(Sigma), with the two null ones scaled so that all are finite for who falls through the horizon. Then
 
-    static observer, u ~ d_t:                     beta = -a sin theta/sqrt(Delta)
-    ZAMO,            u ~ d_t + omega d_phi:       beta = -a sin theta sqrt(Delta)/(r^2+a^2)
+    X.Y = (-(U_X V_Y + V_X U_Y)/2 + T2_X T2_Y + T3_X T3_Y)/Sigma
 
-No difference of nearly equal numbers occurs, not even just above the horizon, and no division by sin theta.
+    d_t = (1, Delta, 0, -a sin)        d_phi/sin = (-a sin, -a sin Delta, 0, r^2+a^2)
+
+and who falls with E and L = 0 has P = (r^2+a^2)E, U = (r^2+a^2)/V where E = 1 or a = 0. Gram and Schmidt on (u, d_theta, d_phi, d_r) gives the axes
+that the camera counts directions by. A boost makes new axes of all four, without turning them.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,14 +59,14 @@ class Place:
 class Momenta:
     """Photons at the observer, in units of the energy it measures: arrays (N,).
 
-    energy, l_over_sin = L_z/sin(theta), p_theta: covariant components; radial = n_r; carter_p = (r^2+a^2)E - aL;
+    energy, l_over_sin = L_z/sin(theta), p_theta: covariant components; radial_rate = Sigma dr/ds; carter_p = (r^2+a^2)E - aL;
     carter_k = Q + (L - aE)^2.
     """
 
     energy: Float[Array, " N"]
     l_over_sin: Float[Array, " N"]
     p_theta: Float[Array, " N"]
-    radial: Float[Array, " N"]
+    radial_rate: Float[Array, " N"]
     carter_p: Float[Array, " N"]
     carter_k: Float[Array, " N"]
 
@@ -78,31 +79,89 @@ def static_observer_exists(place: Place, spin: float) -> bool:
     return delta > (spin * place.sin_theta) ** 2
 
 
-def momenta(directions: Float[Array, "N 3"], place: Place, spin: float, observer: str) -> Momenta:
-    """Conserved quantities of photons that move along `directions` (N, 3) = (n_r, n_theta, n_phi) of the observer.
+def momenta(directions: Float[Array, "N 3"], place: Place, spin: float, observer: str, velocity: Sequence[float] = (0.0, 0.0, 0.0),
+            fall_from: float = math.inf) -> Momenta:
+    """Conserved quantities of photons that move along `directions` (N, 3) = (n_r, n_theta, n_phi) of the observer. Finite distance only.
 
-    `observer`: "static" (only outside the ergosphere) or "zamo". Finite distance only.
+    Args:
+        spin: of the hole as the photons have it: the reversed one of the hole that the observer is in, who moves the other way in it.
+        observer: "static" (only outside the ergosphere), "zamo", "circular" (in the plane, or any with spin 0), "rain" or "fall" (spin 0).
+        velocity: (3,) in (r, theta, phi), of the camera in that observer's frame.
+        fall_from: of "fall", r in M.
     """
+    sigma, axes = _axes(place, -spin, observer, fall_from)
+    axes = _boosted(axes, np.asarray(velocity, dtype=np.float64))
+    light = axes[0] - np.asarray(directions, dtype=np.float64) @ axes[1:]  # what arrives from there; what moves there has all but E and P reversed
+    u, v, t2, t3 = light.T
     r, sine = place.r, place.sin_theta
-    sigma = r * r + (spin * place.cos_theta) ** 2
-    r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
-    delta = (r - r_plus) * (r - 2.0 + r_plus)
-    root_delta, root_sigma = math.sqrt(delta), math.sqrt(sigma)
-    if observer == "static":
-        # gamma beta and gamma from Delta - a^2 sin^2, so that nothing is lost near the static limit.
-        gamma = root_delta / math.sqrt(delta - (spin * sine) ** 2)
-        beta = -spin * sine / root_delta
-    else:
-        beta = -spin * sine * root_delta / (r * r + spin * spin)
-        gamma = 1.0 / math.sqrt((1.0 - beta) * (1.0 + beta))
-    n_r, n_theta, n_phi = np.asarray(directions, dtype=np.float64).T
-    k0 = gamma * (1.0 + beta * n_phi)
-    k3 = gamma * (n_phi + beta)
+    p, outwards = 0.5 * (_delta(place, spin) * u + v), 0.5 * (_delta(place, spin) * u - v)
     return Momenta(
-        energy=(root_delta * k0 + spin * sine * k3) / root_sigma,
-        l_over_sin=(spin * sine * root_delta * k0 + (r * r + spin * spin) * k3) / root_sigma,
-        p_theta=root_sigma * n_theta,
-        radial=n_r,
-        carter_p=root_sigma * root_delta * k0,
-        carter_k=sigma * (n_theta**2 + k3**2),
+        energy=(p - spin * sine * t3) / sigma,
+        l_over_sin=(spin * sine * p - (r * r + spin * spin) * t3) / sigma,
+        p_theta=-t2,
+        radial_rate=-outwards,
+        carter_p=p,
+        carter_k=t2**2 + t3**2,
     )
+
+
+def at_rest(directions: Float[Array, "N 3"], velocity: Sequence[float]) -> Float[Array, "N 3"]:
+    """Where light is seen by who is at rest, unit vectors (N, 3), that who moves at `velocity` (3,) sees in unit `directions` (N, 3)."""
+    v = np.asarray(velocity, dtype=np.float64)
+    gamma = 1.0 / math.sqrt(1.0 - v @ v)
+    along = directions @ v
+    seen = directions + v * (gamma * gamma / (gamma + 1.0) * along - gamma)[:, None]
+    return seen / (gamma * (1.0 - along))[:, None]
+
+
+def _delta(place: Place, spin: float) -> float:
+    r_plus = 1.0 + math.sqrt((1.0 - spin) * (1.0 + spin))
+    return (place.r - r_plus) * (place.r - 2.0 + r_plus)
+
+
+def _axes(place: Place, spin: float, observer: str, fall_from: float) -> tuple[float, Float[Array, "4 4"]]:
+    """Sigma, and u, e_r, e_theta, e_phi of the observer as rows (U, V, T2, T3), in a hole with `spin`."""
+    r, sine = place.r, place.sin_theta
+    sigma, delta, wide = r * r + (spin * place.cos_theta) ** 2, _delta(place, spin), r * r + spin * spin
+
+    def product(x: Array, y: Array) -> float:
+        return float((-0.5 * (x[0] * y[1] + x[1] * y[0]) + x[2] * y[2] + x[3] * y[3]) / sigma)
+
+    velocity = _fall(r, spin, sine, observer, fall_from) if observer in ("rain", "fall") else _turn(place, spin, delta, observer)
+    u = velocity / math.sqrt(-product(velocity, velocity))
+    e_theta = np.array([0.0, 0.0, math.sqrt(sigma), 0.0])
+    e_phi = np.array([-spin * sine, -spin * sine * delta, 0.0, wide])
+    e_r = np.array([1.0, -1.0, 0.0, 0.0])
+    e_phi = e_phi + product(e_phi, u) * u
+    e_phi = e_phi / math.sqrt(product(e_phi, e_phi))
+    e_r = e_r + product(e_r, u) * u - product(e_r, e_phi) * e_phi
+    return sigma, np.stack([u, e_r / math.sqrt(product(e_r, e_r)), e_theta, e_phi])
+
+
+def _turn(place: Place, spin: float, delta: float, observer: str) -> Float[Array, " 4"]:
+    """d_t + Omega d_phi. The orbits are prograde geodesics; out of the plane, where a = 0, sin(theta) d_phi is meant."""
+    r, sine = place.r, place.sin_theta
+    wide = r * r + spin * spin
+    if observer == "circular":
+        sense = -1.0 if spin < 0.0 else 1.0
+        rate = sense / (r**1.5 + abs(spin))
+        return np.array([1.0 - spin * rate, delta * (1.0 - spin * rate), 0.0, wide * rate - spin])
+    rate = 0.0
+    if observer == "zamo":
+        rate = 2.0 * spin * r / (wide * wide - delta * (spin * sine) ** 2)
+    null = 1.0 - spin * sine * sine * rate
+    return np.array([null, delta * null, 0.0, sine * (wide * rate - spin)])
+
+
+def _fall(r: float, spin: float, sine: float, observer: str, fall_from: float) -> Float[Array, " 4"]:
+    energy = 1.0 if observer == "rain" else math.sqrt(1.0 - 2.0 / fall_from)
+    wide = r * r + spin * spin
+    inwards = math.sqrt(wide * (wide * energy**2 - (wide - 2.0 * r)))  # P^2 - Delta (r^2 + a^2): light of no mass has K for the last
+    v = wide * energy + inwards
+    return np.array([wide / v, v, 0.0, -spin * sine])
+
+
+def _boosted(axes: Float[Array, "4 4"], velocity: Float[Array, " 3"]) -> Float[Array, "4 4"]:
+    gamma = 1.0 / math.sqrt(1.0 - velocity @ velocity)
+    along = velocity @ axes[1:]
+    return np.concatenate([gamma * (axes[:1] + along), axes[1:] + np.outer(velocity, gamma * axes[0] + gamma * gamma / (gamma + 1.0) * along)])

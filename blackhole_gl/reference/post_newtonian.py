@@ -103,5 +103,5 @@ _STRENGTHS = {"gravity_strength": "hole.gravity_strength", "horizon_size": "hole
 def post_newtonian(view: View, gravity_strength: float = 1.0, horizon_size: float = 1.0) -> Traced:
     """gravity_strength: G; horizon_size: radius of capture in horizon radii. The drag is that of the spin: none without."""
     system = PostNewtonianSystem(gravity_strength, horizon_size * view.horizon, view.spin)
-    state = system.start_at_infinity(view.place, view.screen) if view.at_infinity else system.start(view.place, view.rays)
+    state = system.start_at_infinity(view.place, view.screen) if view.at_infinity else system.start(view.place, view.resting_rays)
     return follow(view, system, state, np.ones(len(view.rays)), l_z_of_straight_rays(view))

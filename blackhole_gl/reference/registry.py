@@ -19,7 +19,7 @@ import numpy as np
 from ..shapes import Float
 from .events import LightRays
 from .hits import Traced
-from .observers import Place
+from .observers import Momenta, Place, at_rest, momenta
 
 Array = np.ndarray
 
@@ -34,10 +34,11 @@ class View:
         rays: (N, 3) unit look directions (n_r, n_theta, n_phi) in the observer's frame; (N, 2) alpha, beta in M where the camera is at infinity.
         place: the camera's place, r in r_s.
         spin: a*; 0 where the twin says that it has none.
-        observer: "static" or "zamo", as used.
+        observer: "static", "zamo", "circular", "rain" or "fall", as used.
         horizon: r in r_s of the metric's horizon; of Kerr's, with this spin, where a model has no such metric; 0 where there is no hole.
         planes: (P, 3) unit normals of the planes through the hole whose crossings are asked for; the equatorial one first.
         balls: (B, 4) centre and radius, in r_s, of the spheres whose crossings are asked for, behind those of the planes.
+        velocity: in (r, theta, phi), of the camera in the frame of that observer. fall_from: of "fall", in r_s.
         orders: crossings kept of each plane and ball.
         tolerance: error allowed per step of the integrator.
     """
@@ -51,6 +52,8 @@ class View:
     orders: int
     tolerance: float
     balls: Float[Array, "B 4"] = field(default_factory=lambda: np.zeros((0, 4)))
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    fall_from: float = math.inf
 
     @property
     def surfaces(self) -> int:
@@ -65,6 +68,32 @@ class View:
     def place_in_m(self) -> Place:
         """The camera's place with r in M."""
         return replace(self.place, r=2.0 * self.place.r)
+
+    def momenta(self, spin: float) -> Momenta:
+        """Those of the rays, (N,) each, with the spin that they have. Finite distance only."""
+        return momenta(self.rays, self.place_in_m, spin, self.observer, self.velocity, 2.0 * self.fall_from)
+
+    def energies(self, metric: str | None) -> Float[Array, " N"]:
+        """E of the rays' light over that which the camera measures, (N,), in one of `METRICS`; NaN in none."""
+        if metric is None or self.at_infinity:
+            return np.full(len(self.rays), math.nan if metric is None else 1.0)
+        if metric == "flat":
+            v = np.array(self.velocity)
+            return (1.0 - self.rays @ v) / math.sqrt(1.0 - v @ v)
+        return self.momenta(-self.spin if metric == "kerr" else 0.0).energy
+
+    @property
+    def resting_rays(self) -> Float[Array, "N columns"]:
+        """`rays` as who is at rest in the camera's place sees them: for the models of flat space and of Schwarzschild's."""
+        if self.at_infinity:
+            return self.rays
+        r = self.place.r
+        of_kind = {
+            "circular": (0.0, 0.0, math.sqrt(0.5 / max(r - 1.0, 1e-9))),
+            "rain": (-math.sqrt(1.0 / r), 0.0, 0.0),
+            "fall": (-math.sqrt(max(1.0 / r - 1.0 / self.fall_from, 0.0) / (1.0 - 1.0 / self.fall_from)), 0.0, 0.0),
+        }
+        return at_rest(at_rest(self.rays, self.velocity), of_kind.get(self.observer, (0.0, 0.0, 0.0)))
 
     @property
     def screen(self) -> Float[Array, "N 2"]:

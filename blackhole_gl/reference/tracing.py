@@ -25,7 +25,8 @@ Array = np.ndarray
 
 
 def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: float, azimuth_deg: float = 0.0,
-          observer: str = "static", directions: ArrayLike | None = None, screen: ArrayLike | None = None, planes: Sequence[Sequence[float]] = (),
+          observer: str = "static", velocity: tuple[float, float, float] = (0.0, 0.0, 0.0), fall_from: float = math.inf,
+          directions: ArrayLike | None = None, screen: ArrayLike | None = None, planes: Sequence[Sequence[float]] = (),
           balls: Sequence[Sequence[float]] = (), orders: int = 3, orbit: str = "prograde", falls: bool = False, tolerance: float = 1e-12,
           **parameters: Any) -> ReferenceHits:
     """Traces rays backwards from the camera.
@@ -35,7 +36,8 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
         spin: a*, -0.9999 ... 0.9999; models without spin take it as 0, flat uses it for the ball's size and the emitters' orbits.
         distance: Boyer-Lindquist r of the camera in r_s, above the horizon; may be inf.
         inclination_deg, azimuth_deg: theta of the camera, 0 ... 180, and its phi.
-        observer: "static" or "zamo"; only models in Kerr's metric tell them apart.
+        observer: "static", "zamo", "circular", "rain" or "fall"; only models in Kerr's metric tell the first two apart.
+        velocity: of the camera in that observer's frame, in (r, theta, phi). fall_from: where who falls was at rest, in r_s.
         directions: (N, 3) look directions (n_r, n_theta, n_phi) in the observer's frame; normalised here.
         screen: (N, 2) alpha (right), beta (up) in M: instead of directions, when distance is inf.
         planes: normals (of any length) of further planes through the hole whose crossings are asked for; events 1, 2, ... of the hits, event 0
@@ -55,7 +57,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     if unknown := sorted(set(parameters) - set(twin.parameters)):
         raise ValueError(f"the twin of {model} takes no {unknown[0]}; it takes {', '.join(twin.parameters) or 'no parameters'}")
     view = view_of(twin, spin, Place.from_degrees(distance, inclination_deg, azimuth_deg), observer, directions, screen, planes, orders, tolerance)
-    view = replace(view, balls=np.array(balls, dtype=np.float64).reshape(-1, 4))
+    view = replace(view, velocity=velocity, fall_from=fall_from, balls=np.array(balls, dtype=np.float64).reshape(-1, 4))
     batches = [view.rays[i:i + _BATCH] for i in range(0, len(view.rays), _BATCH)] or [view.rays]
     traced = joined([twin.trace(replace(view, rays=rays), **parameters) for rays in batches])
 
@@ -64,7 +66,7 @@ def trace(model: str, *, spin: float = 0.0, distance: float, inclination_deg: fl
     return ReferenceHits(
         fate=traced.fate, direction=traced.direction, theta=theta, phi=azimuth, steps=traced.steps, evaluations=traced.steps * EVALUATIONS_PER_STEP,
         crossings=crossings, g=_emitter_ratio(crossings.of(EQUATOR), traced.energy, traced.l_z, view.spin, orbit, falls), lambda_=traced.l_z / traced.energy,
-        energy_sign=np.sign(traced.energy), observer=view.observer)
+        energy_sign=np.sign(traced.energy), energy=view.energies(twin.metric), observer=view.observer)
 
 
 def view_of(twin: Twin, spin: float, place: Place, observer: str, directions: ArrayLike | None, screen: ArrayLike | None,

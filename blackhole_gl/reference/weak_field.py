@@ -73,6 +73,6 @@ def _plane(view: View, lapse: float) -> tuple[Array, Array, Array]:
         b = np.hypot(view.screen[:, 0], view.screen[:, 1])
         tangent = np.outer(view.screen[:, 0], e_phi) - np.outer(view.screen[:, 1], e_theta)
         return np.zeros(len(b)), tangent / np.maximum(b, 1e-300)[:, None], b
-    sine = np.hypot(view.rays[:, 1], view.rays[:, 2])
-    tangent = np.outer(view.rays[:, 1], e_theta) + np.outer(view.rays[:, 2], e_phi)
-    return np.arctan2(sine, -view.rays[:, 0]), tangent / np.maximum(sine, 1e-300)[:, None], view.place.r * sine / lapse
+    sine = np.hypot(view.resting_rays[:, 1], view.resting_rays[:, 2])
+    tangent = np.outer(view.resting_rays[:, 1], e_theta) + np.outer(view.resting_rays[:, 2], e_phi)
+    return np.arctan2(sine, -view.resting_rays[:, 0]), tangent / np.maximum(sine, 1e-300)[:, None], view.place.r * sine / lapse

@@ -164,7 +164,7 @@ class _Maker:
     def __init__(self, plan: Plan, observer: Observer, aspect: float, near: Outlines | None):
         self._plan, self._observer, self._aspect = plan, observer, aspect
         self._angles = np.linspace(0.0, 2.0 * np.pi, _POINTS + 1)
-        self._hole = self._place(_towards_hole())
+        self._hole = self._place(observer.hole)
         self._isco = space_time(plan.scene).isco_radius(plan.scene.disk)
         self._outlines = self._outlined(near)
 
@@ -255,10 +255,6 @@ def _apart(names: Iterable[Name]) -> Iterator[Name]:
         y = max(y, lowest.get(side, -1.0) + _LINE_SPACING)
         lowest[side] = y
         yield replace(name, place=(x, y))
-
-
-def _towards_hole() -> Float[np.ndarray, " 3"]:
-    return np.array([-1.0, 0.0, 0.0])
 
 
 def _screen_direction(angle_deg: float) -> Float[np.ndarray, " 2"]:

@@ -141,10 +141,14 @@ def _emission(left: PolarizedLight, is_synchrotron: bool) -> tuple[Float[np.ndar
 
 
 def directions_at(observer: Observer, scene: Scene, aspect: float, places: Float[np.ndarray, "N 2"]) -> Float[np.ndarray, "N 3"]:
-    """The local directions (N, 3) of the observer's tetrad that `places` (right, down) of a picture show, in its heights: the inverse of `labels.places`."""
+    """The local directions (N, 3) of the observer's tetrad that `places` (right, down) of a picture show, in its heights: the inverse of `labels.places`.
+
+    Unit vectors, but for a far observer, whose rays are parallel.
+    """
     half = labels.half_height(observer, scene)
     right, down = half * (2.0 * places[:, 0] - aspect), half * (2.0 * places[:, 1] - 1.0)
-    return np.stack([-np.ones_like(right), down, right], axis=-1) @ observer.look.T
+    found = np.stack([-np.ones_like(right), down, right], axis=-1) @ observer.look.T
+    return found if observer.w == 0.0 else found / np.linalg.norm(found, axis=-1, keepdims=True)
 
 
 def ticks(scene: Scene, aspect: float, *, moving: bool = False) -> Labels:

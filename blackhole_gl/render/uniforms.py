@@ -25,6 +25,8 @@ _RAY_MEMBERS = (
     ("view_back", "vec4"),  # world axes of the view, as camera_n, e_θ and e_φ for a camera that looks at the hole
     ("view_down", "vec4"),
     ("view_right", "vec4"),
+    ("seen_colour", "vec4"),  # what light from (1, n) counts as, for colours and for brightness; read where parts of the observer's motion are switched off
+    ("seen_beaming", "vec4"),
     ("picture_size", "vec2"),  # pixels of the whole picture
     ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
     ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
@@ -125,6 +127,8 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         view_back=(*back, 0.0),
         view_down=(*down, 0.0),
         view_right=(*aside, 0.0),
+        seen_colour=seen.shown_energies[0],
+        seen_beaming=seen.shown_energies[1],
         picture_size=size,
         picture_offset=offset,
         picture_hole=(0.5 * size[0] + 0.5 * right / picture_scale, 0.5 * size[1] + 0.5 * up / picture_scale),
@@ -182,7 +186,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
     found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0)}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
-    found |= {"SKY_STARS": stars_a_pixel(plan.scene)}
+    found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key) is True)
@@ -195,6 +199,12 @@ def switches(plan: Plan) -> dict[str, int]:
 def stars_a_pixel(scene: Scene) -> int:
     """How many points of light the sky of `scene` may have in a pixel; 0 where it draws none apart."""
     return catalogue.plug_ins("sky")[scene.sky.model].traits.stars if scene.sky.enabled else 0
+
+
+def _sky_shifts(scene: Scene) -> bool:
+    """Whether the sky of `scene` shows the observer's shift: a sky that does has a switch ``frequency_shift``."""
+    switch = f"sky.{scene.sky.model}.frequency_shift"
+    return switch in fields() and bool(scene.get(switch))
 
 
 @cache

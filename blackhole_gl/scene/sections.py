@@ -83,10 +83,18 @@ class Camera:
     fov_deg: float = number(45.0, 1.0, 150.0, "°", "Vertical angle of view.")
     field_m: float = number(30.0, 0.1, 1e4, "M", "Height of the picture when the camera is infinitely far.")
     observer: str = choice(
-        "static", ("static", "zamo"),
-        "How the camera moves: at rest, or with zero angular momentum (ZAMO), dragged round by a spinning hole. In the ergosphere nothing "
-        "can rest: there the static observer gives way to the ZAMO.",
+        "static", ("static", "zamo", "circular", "rain", "fall"),
+        "How the camera moves: at rest; with zero angular momentum (ZAMO), dragged round by a spinning hole; on a circular orbit, with the disk's matter; or "
+        "falling, like rain from rest at infinity, or from rest at camera.fall_from. In the ergosphere nothing can rest: there the static observer gives "
+        "way to the ZAMO.",
     )
+    fall_from: float = number(30.0, 0.5001, 1e4, "r_s", "Where the observer that falls was at rest; at least the camera's distance.")
+    velocity_right: float = number(0.0, -0.99, 0.99, "c", "A velocity of the camera's own against that observer: to the right of one who looks at the hole.")
+    velocity_up: float = number(0.0, -0.99, 0.99, "c", "The same upwards. It does not turn with the view.")
+    velocity_forward: float = number(0.0, -0.99, 0.99, "c", "The same towards the hole. All three together are slower than light.")
+    aberration: bool = switch(True, "The camera's motion shifts where things are seen, towards where it goes.", physical=True)
+    doppler_colour: bool = switch(True, "The camera's motion shifts colours: blue ahead, red behind.", physical=True)
+    beaming: bool = switch(True, "The camera's motion brightens what is ahead, as the fourth power of the shift, and dims what is behind.", physical=True)
 
 
 @dataclass(frozen=True)

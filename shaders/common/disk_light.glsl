@@ -5,7 +5,7 @@
 struct DiskLight {
     float lambda;  // L_z/E in M; with DISK_TILTED, at a crossing: about the disk's axis
     float eta;     // Q/E² in M²; with DISK_TILTED, at a crossing: k_n²/E², k_n its momentum along the disk's axis times r
-    float energy;  // E_observer/E_infinity
+    vec2 energy;   // E_observer/E_infinity, for colours and for brightness
 #if DISK_TILTED
     vec2 heading;  // unit vector from the hole to the crossing, in the disk's axes
 #endif
@@ -20,9 +20,9 @@ float carter_constant(vec3 local) {
 
 DiskLight disk_light(float lambda, vec3 local) {
 #if DISK_TILTED
-    return DiskLight(lambda, carter_constant(local), 1.0 / max(pixel_energy_ratio(local), 1e-6), vec2(1.0, 0.0));
+    return DiskLight(lambda, carter_constant(local), pixel_energies(local), vec2(1.0, 0.0));
 #else
-    return DiskLight(lambda, carter_constant(local), 1.0 / max(pixel_energy_ratio(local), 1e-6));
+    return DiskLight(lambda, carter_constant(local), pixel_energies(local));
 #endif
 }
 

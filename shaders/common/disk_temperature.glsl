@@ -12,3 +12,8 @@ float disk_temperature(float r) {
 vec2 disk_colour_shift(vec2 shift, float energy) {
     return vec2(DISK_REDSHIFT == 1 ? shift.x * energy : 1.0, DISK_DOPPLER_COLOUR == 1 ? shift.y : 1.0);
 }
+
+// The same of what the brightness goes by.
+vec2 disk_power_shift(vec2 shift, float energy) {
+    return vec2(DISK_REDSHIFT == 1 ? shift.x * energy : 1.0, DISK_BEAMING == 1 ? shift.y : 1.0);
+}

@@ -10,7 +10,8 @@ struct Light {
 struct Sight {
     vec3 place;         // r_s
     vec3 towards;       // unit vector along the ray there, towards the camera
-    float energy;       // E_observer/E_infinity
+    float energy;       // E_observer/E_infinity, as it counts for colours
+    float beaming;      // and as it counts for brightness: the same unless parts of the observer's motion are switched off
     bool enters;        // the ray goes into it, traced backwards
     Momentum momentum;  // of the ray there
     vec3 right, up;     // change of the place to the next pixel on the right and above
@@ -18,7 +19,7 @@ struct Sight {
 
 // Takes differences between pixels, so all pixels must run it: keep it outside every branch. Where the next pixel meets something else, a pixel's width at
 // the camera stands in for them, at right angles to the ray.
-Sight sight_of(Meeting met, float energy) {
+Sight sight_of(Meeting met, vec2 energy) {
     float r = max(length(met.place), 1e-6);
     vec3 n = met.place / r;
     vec3 backwards = (0.5 / r) * met.momentum.n_rate - met.momentum.w_rate * n;
@@ -29,7 +30,7 @@ Sight sight_of(Meeting met, float energy) {
     vec3 aside = normalize(cross(towards, abs(towards.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
     if (dFdx(what) != 0.0) right = picture_scale * away * aside;
     if (dFdy(what) != 0.0) up = picture_scale * away * cross(aside, towards);
-    return Sight(met.place, towards, energy, met.enters, met.momentum, right, up);
+    return Sight(met.place, towards, energy.x, energy.y, met.enters, met.momentum, right, up);
 }
 
 // E_infinity/E_emitter = 1/(u^t (1 − k_i v^i)) of light that leaves, along the ray, matter of velocity v = dx/dt there (c = 1, x as rays tell it):

@@ -37,9 +37,15 @@ vec3 pixel_direction(vec2 place) {
     return camera_w > 0.0 ? normalize(local) : local;
 }
 
-// E_infinity/E_observer of light that arrives from the local direction `local`.
-float pixel_energy_ratio(vec3 local) {
-    return observer_map[0].x + dot(vec3(observer_map[1].x, observer_map[2].x, observer_map[3].x), local);
+// E_observer/E_infinity of light that arrives from the local direction `local`, as it counts for colours (x) and for brightness (y): one number, unless the
+// observer's motion is not to show in both, or not to shift directions.
+vec2 pixel_energies(vec3 local) {
+    float from_afar = max(observer_map[0].x + dot(vec3(observer_map[1].x, observer_map[2].x, observer_map[3].x), local), 1e-6);
+#if CAMERA_ABERRATION && CAMERA_DOPPLER_COLOUR && CAMERA_BEAMING
+    return vec2(1.0 / from_afar);
+#else
+    return max(vec2(seen_colour.x + dot(seen_colour.yzw, local), seen_beaming.x + dot(seen_beaming.yzw, local)), 1e-6) / from_afar;
+#endif
 }
 
 RayStart ray_start(vec3 local) {

@@ -47,8 +47,9 @@ vec3 lamp_light(Finish finish, vec3 colour, Sight sight, vec3 normal) {
 
 // Radiance of a surface of velocity dx/dt, seen by `sight`.
 vec3 surface_radiance(Finish finish, Painted painted, Sight sight, vec3 normal, vec3 velocity) {
-    float shift = finish.frequency_shift ? emitted_shift(sight, velocity) * sight.energy : 1.0;
-    float power = shift * shift;
+    float emitted = finish.frequency_shift ? emitted_shift(sight, velocity) : 1.0;
+    float shift = finish.frequency_shift ? emitted * sight.energy : 1.0, seen = finish.frequency_shift ? emitted * sight.beaming : 1.0;
+    float power = seen * seen;
     power *= power;
     if (finish.surface == SURFACE_BLACK_BODY) return blackbody_colour(finish.temperature_k * shift) * (finish.brightness * power);
     vec3 colour = painted_colour(finish, painted);

@@ -68,7 +68,7 @@ Light thing_annulus_light(int i, Sight sight) {
     vec3 along = vec3(node, 0.0), across = cross(axis, along);
     float sector = floor(turns(dot(sight.place, along), dot(sight.place, across)) * float(thing_annulus_sectors(i)));
     float bright = mod(sector, 2.0) == 0.0 ? 1.0 : 0.3;
-    float shift = emitted_shift(sight, vec3(0.0)) * sight.energy;
-    vec3 colour = blackbody_colour(thing_annulus_temperature_k(i) * shift);
-    return Light(colour * (bright * thing_annulus_brightness(i) * shift * shift * shift * shift), vec3(0.0));
+    float emitted = emitted_shift(sight, vec3(0.0)), seen = emitted * sight.beaming;
+    vec3 colour = blackbody_colour(thing_annulus_temperature_k(i) * (emitted * sight.energy));
+    return Light(colour * (bright * thing_annulus_brightness(i) * seen * seen * seen * seen), vec3(0.0));
 }

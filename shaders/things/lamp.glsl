@@ -29,7 +29,7 @@ float thing_lamp_crossing(int i, vec3 x, vec3 y, out bool enters) {
 }
 
 Light thing_lamp_light(int i, Sight sight) {
-    float shift = emitted_shift(sight, thing_lamp_velocity(i).xyz) * sight.energy;
+    float shift = emitted_shift(sight, thing_lamp_velocity(i).xyz) * sight.beaming;
     shift *= shift;
     return Light(thing_lamp_colour(i) * (thing_lamp_glow(i) * shift * shift), vec3(0.0));
 }

@@ -18,7 +18,7 @@ void main() {
     for (int n = ORDERS - 1; n >= 0; --n) {
         DiskLight sent = light_at_crossing(light, hits.crossing[n], is_inbound(hits, n));
         vec2 shift = disk_shift(clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out), sent, is_inbound(hits, n));
-        if (on_disk(hits.crossing[n])) colour = false_colour(shift.x * shift.y * light.energy);
+        if (on_disk(hits.crossing[n])) colour = false_colour(shift.x * shift.y * light.energy.x);
     }
 #endif
     radiance = vec4(colour, 1.0);

@@ -19,7 +19,7 @@ void main() {
     for (int n = ORDERS - 1; n >= 0; --n) {
         float r = clamp(length(hits.crossing[n]), disk_r_edge, disk_r_out);
         DiskLight sent = light_at_crossing(light, hits.crossing[n], is_inbound(hits, n));
-        vec2 shift = disk_colour_shift(disk_shift(r, sent, is_inbound(hits, n)), light.energy);
+        vec2 shift = disk_colour_shift(disk_shift(r, sent, is_inbound(hits, n)), light.energy.x);
         if (on_disk(hits.crossing[n])) colour = false_colour(disk_temperature_k * disk_temperature(r) * shift.x * shift.y);
     }
 #endif

@@ -30,6 +30,8 @@ def test_a_place_of_the_picture_has_the_direction_that_is_seen_there(values: dic
     places = np.random.default_rng(1).uniform(0.0, (1.5, 1.0), (50, 2))
     found = polarized_disk.directions_at(observe(scene), scene, 1.5, places)
     np.testing.assert_allclose(labels.places(observe(scene), scene, 1.5, found), places, atol=1e-12)
+    if observe(scene).w > 0.0:  # what a ray starts with is told of unit vectors
+        np.testing.assert_allclose(np.linalg.norm(found, axis=-1), 1.0)
 
 
 @pytest.mark.parametrize("name, outwards", [("toroidal", 1.0), ("radial", 0.0)])
