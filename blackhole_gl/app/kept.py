@@ -10,7 +10,8 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from ..output import toml
+import tomlkit
+
 from ..output.files import write_whole
 from ..resources import user_config_dir
 from ..scene import Scene, presets
@@ -94,8 +95,11 @@ def save(kept: Kept) -> None:
     Raises:
         OSError: it cannot be written.
     """
-    lines = ["# What the window keeps; written when it closes.\n", *(toml.line(name, value) for name, value in asdict(kept).items())]
-    write_whole(file(), "".join(lines).encode("utf-8"))
+    document = tomlkit.document()
+    document.add(tomlkit.comment("What the window keeps; written when it closes."))
+    for name, value in asdict(kept).items():
+        document.add(name, list(value) if isinstance(value, tuple) else value)
+    write_whole(file(), tomlkit.dumps(document).encode("utf-8"))
 
 
 def save_scene(scene: Scene, time: float) -> None:

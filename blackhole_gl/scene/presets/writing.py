@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Mapping, Set
 from pathlib import Path
 
+import tomlkit
+
 from ... import VERSION
-from ...output import files, toml
+from ...output import files
 from .. import Scene, catalogue, fields, instances
 from ..catalogue import KIND, SWITCH
 from ..schema import Field, Value
@@ -78,22 +80,34 @@ def save(
 
 
 def _dump(scene: Scene, full: bool, about: Mapping[str, str | float | bool], folder: Path | None, idle: Set[str] = frozenset()) -> str:
-    parts = ["".join(toml.line(name, said) for name, said in about.items() if said != "")]
+    document = tomlkit.document()
+    for name, said in about.items():
+        if said != "":
+            document.add(name, said)
     for table, entries in _entries_by_table(scene, full, idle).items():
-        lines, records = [f"[{table}]\n"], []
-        for name, item in entries.items():
+        place = document
+        for part in table.split("."):
+            if part not in place:
+                place.add(part, tomlkit.table())
+            place = place[part]
+        for name, item in sorted(entries.items(), key=lambda entry: bool(entry[1].columns)):  # in TOML, what stands below [[path]] belongs to it
             value = scene.get(item.key)
-            value = value if folder is None else paths.relative(item, value, folder)
-            if item.columns and isinstance(value, tuple) and value:
-                records += [_record(f"{table}.{toml.key(name)}", record) for record in value]
-            else:
-                lines.append(toml.line(name, value, item.unit if full else ""))
-        parts += ["".join(lines), *records]  # what stands below [[path]] belongs to it
-    return "\n".join(part for part in parts if part)
+            written = _written(item, value if folder is None else paths.relative(item, value, folder))
+            if full and item.unit:
+                written.comment(item.unit)
+            place.add(name, written)
+    return tomlkit.dumps(document)
 
 
-def _record(table: str, record: Iterable[tuple[str, Value]]) -> str:
-    return f"[[{table}]]\n" + "".join(toml.line(name, value) for name, value in dict(record).items())
+def _written(item: Field, value: Value) -> tomlkit.items.Item:
+    if not isinstance(value, tuple):
+        return tomlkit.item(value)
+    if not item.columns or not value:
+        return tomlkit.item(list(value))
+    records = tomlkit.aot()
+    for record in value:
+        records.append(tomlkit.item(dict(record)))
+    return records
 
 
 def _idle(scene: Scene) -> frozenset[str]:
