@@ -74,7 +74,7 @@ class Hands:
         """Clicks twice, as one gesture however long the frames between the clicks take on a busy machine."""
         settings = imgui.get_io()
         usual = settings.mouse_single_click_delay, settings.mouse_double_click_time
-        self.context.sleep_no_skip(PATIENT_DOUBLE_CLICK, 0.1)  # or a click before would be this gesture's first
+        self.context.sleep_no_skip(PATIENT_DOUBLE_CLICK, 0.5)  # or a click before would be this gesture's first
         settings.mouse_single_click_delay, settings.mouse_double_click_time = 2.0 * PATIENT_DOUBLE_CLICK, PATIENT_DOUBLE_CLICK
         self.context.item_double_click(item)
         settings.mouse_single_click_delay, settings.mouse_double_click_time = usual

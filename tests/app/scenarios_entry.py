@@ -301,3 +301,6 @@ def a_notice_leaves_in_time_while_the_window_sleeps(hands: Hands) -> None:
     time.sleep(0.5)  # a frame as long as those of a window that idles
     hands.context.yield_(2)
     assert 0.5 < hands.state.clock - before < 2.0, hands.state.clock - before
+
+
+LOOKING = (line_at_start_is_in_no_picture,)  # at pixels, though the renderer is pretended
