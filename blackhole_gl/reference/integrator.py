@@ -8,7 +8,7 @@ harmonic sequence 2, 4, 6 ..., Aitken-Neville). The modified midpoint rule is le
 of substeps its error is a series in h^2 all the same.
 
 Tolerances below 1e-13 leave nothing to gain: rounding has the rest. Events are found by Newton's method with a fresh step from the last
-accepted state to each trial point, not on an interpolant.
+accepted state to each trial point, not on an interpolant; where the next trial point is near, by a short Runge-Kutta step from this one.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ _SUBSTEPS = 2.0 * np.arange(1, ROWS + 1)
 _SAFETY = 0.85
 _SHRINK, _GROW = 0.1, 4.0
 _LOCATED = 1e-9  # of a step, a correction of a zero: convergence is quadratic, and the next one is below rounding
+_NEAR = 1e-3  # of a step, which itself is a good part of the scale of what is solved: what an order of 4 leaves out is below rounding
 _MOST_TRIALS = 40  # for a zero; four to six do, but for those found by halves
 
 Array = np.ndarray
@@ -148,8 +149,8 @@ def locate_zero(
     """Where value(state), (N,), vanishes inside one step: (parameter (N,), state (rows, N)) there.
 
     Newton's method on the parameter, by halves where it leaves what is known to hold the zero; each trial is a single step from `before`,
-    shorter than the accepted one and therefore at least as accurate, so that the event carries no interpolation error. The rate need not be
-    exact: it decides how fast the zero is found, not where.
+    shorter than the accepted one and therefore at least as accurate, or one from a trial that was so near that nothing is lost, so that the
+    event carries no interpolation error. The rate need not be exact: it decides how fast the zero is found, not where.
     """
     rate = rate_along(rhs, value)
     start_value, start_rate = value(before), rate(before, step)
@@ -157,8 +158,8 @@ def locate_zero(
     sign = _sign_before_zero(start_value, start_rate)
     low, high = np.zeros_like(parameter), np.array(step, dtype=float)
     located = np.zeros(parameter.shape, dtype=bool)
+    state, _ = extrapolated_step(rhs, before, parameter)
     for _ in range(_MOST_TRIALS):
-        state, _ = extrapolated_step(rhs, before, parameter)
         here = value(state)
         low, high = np.where(np.sign(here) == sign, parameter, low), np.where(np.sign(here) == -sign, parameter, high)
         trial = parameter - here / rate(state, step)
@@ -167,11 +168,33 @@ def locate_zero(
         trial = np.clip(np.where(within, trial, 0.5 * (low + high)), 0.0, step)
         moved = np.abs(trial - parameter)
         # What is located stays: a ray's result does not depend on the rays beside it.
-        parameter = np.where(located, parameter, trial)
+        trial = np.where(located, parameter, trial)
+        state = _moved(rhs, before, state, parameter, trial, step)
+        parameter = trial
         located |= moved <= _LOCATED * step
         if located.all():
             break
-    return parameter, extrapolated_step(rhs, before, parameter)[0]
+    return parameter, state
+
+
+def _moved(rhs: Callable[[Array], Array], before: Array, state: Array, parameter: Array, trial: Array, step: Array) -> Array:
+    """The states at the parameters `trial`, from `state` at `parameter` where that is near, elsewhere from `before`, the step's start."""
+    found, moves = state.copy(), trial != parameter
+    near = np.abs(trial - parameter) <= _NEAR * step
+    if (part := moves & near).any():
+        found[:, part] = _runge_kutta_step(rhs, state[:, part], (trial - parameter)[part])
+    if (part := moves & ~near).any():
+        found[:, part] = extrapolated_step(rhs, before[:, part], trial[part])[0]
+    return found
+
+
+def _runge_kutta_step(rhs: Callable[[Array], Array], state: Array, step: Array) -> Array:
+    """One step of the classical rule of order 4."""
+    first = rhs(state)
+    second = rhs(state + 0.5 * step * first)
+    third = rhs(state + 0.5 * step * second)
+    fourth = rhs(state + step * third)
+    return state + step / 6.0 * (first + 2.0 * (second + third) + fourth)
 
 
 def _sign_before_zero(value: Array, rate: Array) -> Array:
