@@ -117,8 +117,12 @@ class Frames:
 
 
 def wait(hands: Hands, for_what: Callable[[], bool], seconds: float = 2.0) -> None:
-    """Lets frames pass until `for_what`, at most so many seconds; two are twice what an edit of a shader may take."""
+    """Lets frames pass until `for_what`, at most so many seconds; two are twice what an edit of a shader may take.
+
+    Between them it sleeps: frames drawn without end would take the processor from what is waited for.
+    """
     started = time.monotonic()
     while not for_what():
         assert time.monotonic() - started < seconds, "nothing happened"
+        time.sleep(0.02)
         hands.context.yield_()
