@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..scene import fields
+from . import flight
 from .camera_control import Motion, limited, pose_of, within_reach
 from .state import WindowState
 
 DRAG_DEG = 180.0  # a drag over the picture's height
 DRAG_REACH = 3.0  # a drag over the picture's height, in logarithms of the distance from the horizon
 WHEEL_REACH = 0.15  # a notch, in logarithms of the distance from the horizon
+LOOK_RATE = 1.5  # of a picture's height a second, by a gamepad
 HOLD_DEG = 60.0  # a held key, a second
 HOLD_REACH = 1.2
 DEFAULT_KERR_SPIN = 0.9
@@ -40,6 +42,7 @@ class Hand:
         drag, look, pull: ways right and down, over the picture's height, of the drags that orbit, look around and zoom.
         wheel: notches, positive away from the user.
         held: names of the held actions.
+        stick: how fast a gamepad flies right, up and forward, in shares of the full speed.
     """
 
     drag: tuple[float, float] = (0.0, 0.0)
@@ -47,6 +50,11 @@ class Hand:
     pull: tuple[float, float] = (0.0, 0.0)
     wheel: float = 0.0
     held: Collection[str] = ()
+    stick: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def turned(self, look: tuple[float, float], dt: float) -> Hand:
+        """With what a stick that looks right and down, −1 … 1, turns in `dt` seconds: the view goes where it points, which is against a drag's way."""
+        return replace(self, look=(self.look[0] - LOOK_RATE * look[0] * dt, self.look[1] - LOOK_RATE * look[1] * dt)) if any(look) else self
 
 
 def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> None:
@@ -59,6 +67,8 @@ def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> No
     # The near side of what is looked at follows the hand, so the camera goes the other way.
     azimuth, inclination, reach = -DRAG_DEG * right, -DRAG_DEG * down, DRAG_REACH * hand.pull[1] - WHEEL_REACH * hand.wheel
     for name in hand.held:
+        if name not in _HELD:
+            continue
         turn, tilt, go = _HELD[name]
         azimuth, inclination, reach = azimuth + turn * dt, inclination + tilt * dt, reach + go * dt
     target = state.motion.target
@@ -70,6 +80,7 @@ def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> No
     state.move_camera(state.motion.advanced(target, dt))
     if any(hand.look):
         look(state, *hand.look)
+    fly(state, hand, dt)
     if state.is_playing:
         state.time += dt * state.scene.playback.rate
     state.clock += slept + dt
@@ -90,6 +101,19 @@ def look(state: WindowState, right: float, down: float) -> None:
         "camera.yaw_deg": math.remainder(camera.yaw_deg - camera.fov_deg * across, 360.0),
         "camera.pitch_deg": min(max(camera.pitch_deg + camera.fov_deg * along, pitch.low), pitch.high),
     })  # fmt: skip
+
+
+def fly(state: WindowState, hand: Hand, dt: float) -> None:
+    """Flies the camera for `dt` seconds as the hand wants it."""
+    asked = flight.wanted(hand.held, hand.stick)
+    if state.flight.at_rest and not any(asked):
+        return
+    if math.isinf(state.scene.camera.distance):
+        state.say("A camera infinitely far away cannot be flown: give it a distance.")
+        return
+    state.flight, way = state.flight.advanced(asked, dt)
+    right, up, forward = (flight.RATE * part for part in way)
+    state.change(flight.flown(state.scene, (right, up, forward)))
 
 
 def toggle_disk(state: WindowState) -> None:

@@ -22,7 +22,7 @@ class Gesture:
         """Whether a gesture goes on at `now`, in seconds. Call once in each frame."""
         presses = imgui.is_any_item_active() or imgui.is_any_mouse_down()
         self._drags = presses and (self._drags or any(imgui.is_mouse_dragging(button) for button in _BUTTONS))
-        if self._drags or hand.held:
+        if self._drags or hand.held or any((*hand.stick, *hand.look)):
             self._until = now  # what ends with these ends with them
             return True
         if presses or hand.wheel:

@@ -50,12 +50,14 @@ class Action:
         keys: the chords it has when no file says otherwise.
         help: what people read.
         held: whether it goes on while the key is down.
+        flying: whether it is one of free flight: its keys are its own while the right mouse button is held, and others' else.
     """
 
     name: str
     keys: tuple[str, ...]
     help: str
     held: bool = False
+    flying: bool = False
 
 
 ACTIONS: tuple[Action, ...] = (
@@ -68,6 +70,12 @@ ACTIONS: tuple[Action, ...] = (
     Action("orbit_down", ("DOWN",), "Orbit downwards", held=True),
     Action("zoom_in", ("PLUS", "EQUAL", "KEYPAD_ADD", "PAGE_UP"), "Move closer", held=True),
     Action("zoom_out", ("MINUS", "KEYPAD_SUBTRACT", "PAGE_DOWN"), "Move away", held=True),
+    Action("fly_forward", ("W",), "With the right mouse button held: fly forward", held=True, flying=True),
+    Action("fly_back", ("S",), "… back", held=True, flying=True),
+    Action("fly_left", ("A",), "… to the left", held=True, flying=True),
+    Action("fly_right", ("D",), "… to the right", held=True, flying=True),
+    Action("fly_up", ("E",), "… up", held=True, flying=True),
+    Action("fly_down", ("Q",), "… down", held=True, flying=True),
     Action("reset", ("R",), "Camera back to where the preset has it"),
     Action("reset_all", ("SHIFT+R",), "Everything back to the presets in force"),
     Action("undo", ("CTRL+Z",), "Undo"),
@@ -95,6 +103,9 @@ ACTIONS: tuple[Action, ...] = (
     Action("paste", ("CTRL+SHIFT+V",), "Take the scene from the clipboard"),
     Action("quit", ("CTRL+Q",), "Close the viewer"),
 )
+
+FLYING = frozenset(action.name for action in ACTIONS if action.flying)
+"""The actions of free flight."""
 
 _SIGNS = {
     "PLUS": "+", "MINUS": "-", "EQUAL": "=", "COMMA": ",", "PERIOD": ".", "SLASH": "/", "SEMICOLON": ";", "APOSTROPHE": "'", "BACKSLASH": "\\",
@@ -184,11 +195,12 @@ def _chords(given: Any) -> tuple[Chord, ...]:
 
 
 def _refuse_doubles(bindings: Bindings, path: Path) -> None:
-    owner: dict[Chord, str] = {}
+    owner: dict[tuple[bool, Chord], str] = {}
     for name, chords in bindings.items():
         for chord in chords:
-            if owner.setdefault(chord, name) != name:
-                raise KeysError(f"{path}: {name}: {chord} already belongs to {owner[chord]}; give one of the two another key")
+            where = name in FLYING, chord
+            if owner.setdefault(where, name) != name:
+                raise KeysError(f"{path}: {name}: {chord} already belongs to {owner[where]}; give one of the two another key")
 
 
 def _nearest(word: str, known: Any) -> str:

@@ -21,6 +21,11 @@ class Mouse:
         """Whether the picture is being dragged, by whichever button: one that is pressed and let go in one place moves nothing."""
         return self._button is not None and self._moved
 
+    @property
+    def looks(self) -> bool:
+        """Whether the right button is held from the picture on, moved or not."""
+        return self._button == imgui.MouseButton_.right
+
     def poll(self, height: float) -> tuple[Way, Way, Way, float]:
         """The ways dragged in this frame with the left, the right and the middle button, and the wheel's notches. Call once in each frame.
 

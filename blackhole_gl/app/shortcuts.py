@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 # isort: split
 import glfw
 
-from .keys import ACTIONS, Bindings, Chord
+from .keys import ACTIONS, FLYING, Bindings, Chord
 from .typed_keys import Press, Typing, latin
 
 _RENAMED = {"LEFT": "left_arrow", "RIGHT": "right_arrow", "UP": "up_arrow", "DOWN": "down_arrow"}
@@ -86,11 +86,12 @@ class Shortcuts:
         self._down: dict[str, int] = {}
         self._held_before: frozenset[str] = frozenset()
 
-    def poll(self, panel_keys: bool = False) -> tuple[list[str], list[str]]:
+    def poll(self, panel_keys: bool = False, flying: bool = False) -> tuple[list[str], list[str]]:
         """The actions pressed in this frame, and those held. Call once in each frame.
 
         Args:
             panel_keys: whether the keys without a character work the panel.
+            flying: whether keys are those of free flight first.
         """
         if imgui.get_io().want_text_input:
             self._down.clear()
@@ -100,7 +101,12 @@ class Shortcuts:
         meant = now | self._held_before  # let go in the frame in which a key was struck, they were down with it: a frame may be long
         pressed, held = [], {name for name, key in self._down.items() if imgui.is_key_down(imgui.Key(key))}
         self._down = {name: self._down[name] for name in held}
-        for name, key in self._begun(panel_keys, meant, now):
+        begun = list(self._begun(panel_keys, meant, now))
+        of_flight = {name for name, _ in begun if name in FLYING} if flying else set()
+        held = {name for name in held if flying or name not in FLYING}
+        for name, key in begun:
+            if (name in FLYING) != bool(of_flight):
+                continue
             if name not in _HELD:
                 pressed.append(name)
                 continue

@@ -10,6 +10,7 @@ from ..scene import Scene, SceneError
 from ..scene.presets import Preset
 from ..scene.schema import Field, Value
 from .camera_control import Motion, clear_of_horizon, pose_of, values_of
+from .flight import Flight
 from .history import History, Moment
 
 NOTICE_SECONDS = 6.0
@@ -41,7 +42,7 @@ class WindowState:
     Attributes:
         scene: the scene shown now.
         home: the scene as the presets in force or the opened file have it, which resets go back to.
-        motion: the camera on its way.
+        motion: the camera on its way. flight: how it flies.
         chosen: preset group → name of the preset in force.
         history: what can be undone and redone.
         time: scene time in r_s/c.
@@ -67,6 +68,7 @@ class WindowState:
     clock: float = 0.0
     paused: bool = False
     dragging: bool = False
+    flight: Flight = Flight()
     holes: dict[bool, Mapping[str, Any]] = field(default_factory=dict)
     show_panel: bool = True
     show_help: bool = False
@@ -202,7 +204,7 @@ class WindowState:
     @property
     def camera_moves(self) -> bool:
         """Whether the camera is on its way or under the hand."""
-        return self.dragging or not self.motion.at_rest
+        return self.dragging or not (self.motion.at_rest and self.flight.at_rest)
 
     @property
     def is_moving(self) -> bool:

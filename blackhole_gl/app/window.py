@@ -21,6 +21,7 @@ from . import (
     bar,
     commands,
     file_commands,
+    gamepad,
     glfw_window,
     help_window,
     kept,
@@ -258,11 +259,12 @@ class Window:
         state, view = self.state, self.view()
         passed = imgui.get_io().delta_time
         dt = min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
-        pressed, held = self._shortcuts.poll(state.panel_keys)
+        ways, sticks = self._mouse.poll(view.height), gamepad.poll()
+        pressed, held = self._shortcuts.poll(state.panel_keys, self._mouse.looks)
         for name in pressed:
             self.do(name)
         self._escape.poll(state)
-        hand = commands.Hand(*self._mouse.poll(view.height), held)
+        hand = commands.Hand(*ways, held, sticks.fly).turned(sticks.look, dt)
         state.dragging = self._mouse.drags
         commands.advance(state, hand, dt, passed - dt)
         if not self._gesture.lasts(hand, state.clock):

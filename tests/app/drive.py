@@ -18,6 +18,7 @@ from imgui_bundle import hello_imgui, imgui  # noqa: E402  before anything that 
 # isort: split
 import scenarios  # noqa: E402
 import scenarios_entry  # noqa: E402
+import scenarios_flight  # noqa: E402
 import scenarios_things  # noqa: E402
 from fake_renderer import FakeRenderer  # noqa: E402
 from hands import Hands  # noqa: E402
@@ -25,7 +26,7 @@ from hands import Hands  # noqa: E402
 from blackhole_gl.app import window  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
-MODULES = (scenarios, scenarios_entry, scenarios_things)
+MODULES = (scenarios, scenarios_entry, scenarios_flight, scenarios_things)
 SIZE = (900, 640)
 SIZE_OF_REAL = (720, 480)  # a picture of a third of the pixels
 PRESETS = ["kerr", "blackholegpu_low"]

@@ -75,3 +75,12 @@ def test_chords_read_back():
     for chords in default_bindings().values():
         for chord in chords:
             assert parse_chord(str(chord)) == chord
+
+
+def test_keys_of_free_flight_may_be_others_keys_too_but_not_one_another_s(tmp_path):
+    file = tmp_path / "keys.toml"
+    file.write_text('fly_up = "R"\n')
+    assert load_bindings(file)["fly_up"] == default_bindings()["reset"]
+    file.write_text('fly_up = "W"\n')
+    with pytest.raises(KeysError, match="fly_up: W already belongs to fly_forward"):
+        load_bindings(file)

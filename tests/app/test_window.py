@@ -14,7 +14,7 @@ from tests.unit import kinds
 
 HERE = Path(__file__).resolve().parent
 # Read as text: importing scenarios.py would load imgui into the test process, where a later test may want another GLFW.
-TEXT = "".join((HERE / f"{name}.py").read_text(encoding="utf-8") for name in ("scenarios", "scenarios_entry", "scenarios_things"))
+TEXT = "".join((HERE / f"{name}.py").read_text(encoding="utf-8") for name in ("scenarios", "scenarios_entry", "scenarios_flight", "scenarios_things"))
 HELPERS = ("save_picture", "press_bar", "goes_to", "click_the_picture")
 SCENARIOS = [name for name in re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE) if name not in HELPERS]
 REAL = re.findall(r"\w+", " ".join(re.findall(r"^WITH_THE_REAL_RENDERER = \(([^)]*)\)", TEXT, re.MULTILINE)))

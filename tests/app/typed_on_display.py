@@ -23,7 +23,7 @@ from imgui_bundle import hello_imgui  # noqa: E402  before anything that may loa
 from fake_renderer import FakeRenderer  # noqa: E402
 
 from blackhole_gl.app import window  # noqa: E402
-from blackhole_gl.app.keys import Chord, default_bindings  # noqa: E402
+from blackhole_gl.app.keys import FLYING, Chord, default_bindings  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 SLOW_S = 0.25  # a frame, where keys are quick
@@ -106,7 +106,7 @@ def main() -> None:
         try:
             while record.frames < 20:
                 time.sleep(0.05)
-            chords = dict.fromkeys(chord for chords in default_bindings().values() for chord in chords)
+            chords = dict.fromkeys(chord for name, chords in default_bindings().items() if name not in FLYING for chord in chords)
             for chord in chords:
                 if not quick or chord.modifiers:
                     found[str(chord)] = (strike_quickly if quick else strike)(chord, record)
