@@ -24,14 +24,15 @@ _COMPASS_EM = 6.0  # its width and height
 PREPARING_AFTER_S = 0.3  # a note that comes and goes at once would only flicker
 
 Corner = tuple[float, float]  # a place in the window, in imgui's units from the top left
+Box = tuple[float, float, float, float]  # left, top, right and bottom of a part of the window
 _At = Callable[[np.ndarray], Corner]  # of a place in the compass's square
 
 
-def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
-    """The renderer's figures, with their top left at `corner`."""
+def figures(state: WindowState, picture: Picture, corner: Corner) -> Box | None:
+    """The renderer's figures, with their top left at `corner`; where they stand, if they do."""
     report = picture.report
     if not state.show_overlay or report is None:
-        return
+        return None
     imgui.set_next_window_pos(corner)
     imgui.set_next_window_bg_alpha(0.6)
     imgui.begin("##figures", None, UNTOUCHED)
@@ -56,17 +57,19 @@ def figures(state: WindowState, picture: Picture, corner: Corner) -> None:
         imgui.text_colored(theme.QUIET, f"{picture.samples} rays a pixel")
     if picture.scale < 1.0:
         imgui.text_colored(theme.QUIET, f"{picture.scale:.2f} of full resolution")
+    size = imgui.get_window_size()
     imgui.end()
+    return *corner, corner[0] + size.x, corner[1] + size.y
 
 
-def directions(state: WindowState, corner: Corner) -> None:
-    """The compass, with its top right at `corner`; none where the camera cannot be."""
+def directions(state: WindowState, corner: Corner) -> Box | None:
+    """The compass, with its top right at `corner`, and where it stands; none where the camera cannot be."""
     if not state.show_overlay:
-        return
+        return None
     try:
         shown = compass.of(state.scene)
     except ValueError:  # the picture fails for the same reason, which is told
-        return
+        return None
     em = hello_imgui.em_size()
     side = _COMPASS_EM * em
     origin = corner[0] - side, corner[1]
@@ -79,6 +82,7 @@ def directions(state: WindowState, corner: Corner) -> None:
     _circle(canvas, shown, at)
     _axis(canvas, shown, at, 0.4 * em)
     _hole(canvas, shown, at, 0.25 * em)
+    return *origin, corner[0], corner[1] + side
 
 
 def _circle(canvas: imgui.ImDrawList, shown: compass.Compass, at: _At) -> None:

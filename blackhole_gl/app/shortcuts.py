@@ -98,7 +98,9 @@ class Shortcuts:
             self._typing.forget()
             return [], []
         now = _modifiers_down()
-        meant = now | self._held_before  # let go in the frame in which a key was struck, they were down with it: a frame may be long
+        # Let go in the frame in which a key was struck, they were down with it: a frame may be long. They may also have been let go before it, and nobody can
+        # tell: of the events of a frame imgui keeps the order, but what it gives Python of each is its kind alone.
+        meant = now | self._held_before
         pressed, held = [], {name for name, key in self._down.items() if imgui.is_key_down(imgui.Key(key))}
         self._down = {name: self._down[name] for name in held}
         begun = list(self._begun(panel_keys, meant, now))

@@ -272,10 +272,10 @@ class Window:
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
         em = hello_imgui.em_size()
-        overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
-        overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
+        figures = overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
+        directions = overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         self._mouse_values.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
-        self._labels.draw(state, (view.left, view.top), (view.width, view.height))
+        self._labels.draw(state, (view.left, view.top), (view.width, view.height), filter(None, (figures, directions)))
         self._picking.frame(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
         foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))

@@ -23,8 +23,11 @@ _HALVINGS = 4  # of τ, until Laurent's series of ℘ converges quickly
 _TERMS = 12
 _LOOKS = 24  # along a ray, for its end: the shortest way through the hole or infinity and back takes several of them
 _BISECTIONS = 20  # of half a turn: 3e-6 rad, an eighth of a pixel where a picture 720 high shows a degree
-_SECANTS = 5
+_AT_ONCE = 300  # places that are looked at in hardly more time than one
+_FEW = 16  # places that are halved to as soon as guessed at again
+_SECANTS = 8  # most places need three
 _LONGEST_SECANT = 0.7
+_SHORT = 0.02  # a secant after which the next would be of a thousandth
 _NEAR, _SETTLED = 1e-3, 1e-4  # of a radius, and of the shadow: secants whose last step is so short end far closer
 _EDGE_POINTS = 720
 _NUDGE = 1e-4  # of a crossing's time: w on its two sides says whether light goes in or out there
@@ -111,8 +114,9 @@ def circles(
     radius, order, angle = (values.ravel() for values in np.broadcast_arrays(radii[:, None], orders[:, None], angles))
     if guess is None:
         return _bisected(observer, radius, order, angle).reshape(len(radii), -1)
-    found, missed = _refined(observer, radius, order, angle, guess.ravel(), np.broadcast_to(shadow_edge(observer, angles), guess.shape).ravel())
-    if missed.any() and not missed.all():  # where an image crosses the critical curve: from its neighbours, and from the centre
+    base = np.where(orders[:, None] == 0, 0.0, shadow_edge(observer, angles)).ravel()
+    found, missed = _refined(observer, radius, order, angle, guess.ravel(), base)
+    if np.count_nonzero(missed) > _FEW and not missed.all():  # where an image crosses the critical curve: from its neighbours, and from the centre
         places = np.arange(len(found))
         beside = np.interp(places[missed], places[~missed], found[~missed])
         found[missed], again = _refined(observer, radius[missed], order[missed], angle[missed], beside, np.zeros(len(beside)))
@@ -174,10 +178,14 @@ def _bisected(observer: Observer, radius: Float[Array, " K"], order: Int[Array, 
     """`circles` for places listed one by one."""
     low = np.zeros(len(radius))
     high = low + (4.0 * radius + 20.0 if observer.w == 0.0 else math.pi)
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (low + high)
-        inside = crossing_radius(light(observer, directions(observer, middle, angle)), order) < radius
-        low, high = np.where(inside, middle, low), np.where(inside, high, middle)
+    parts = int(np.clip(_AT_ONCE // len(radius), 2, 32))
+    shares = (np.arange(1, parts) / parts)[:, None]
+    for _ in range(math.ceil(_BISECTIONS / math.log2(parts))):
+        between = low + shares * (high - low)
+        inside = crossing_radius(light(observer, directions(observer, between, angle)), order) < radius
+        first = np.where(inside.all(axis=0), parts - 1, np.argmin(inside, axis=0))  # within all before it the crossing lies too far in
+        width = (high - low) / parts
+        low, high = low + first * width, low + (first + 1) * width
     return 0.5 * (low + high)
 
 
@@ -189,21 +197,28 @@ def _refined(
     In the logarithm of the distance from `base`: beside the critical curve a crossing's radius runs through all its values in a like stretch at every order.
     """
 
-    def miss(distance: Float[Array, " K"]) -> Float[Array, " K"]:
-        rays = light(observer, directions(observer, base + distance, angle))
-        return _inverse_radius(rays, _crossing_time(rays, order)[..., None])[..., 0] - 0.5 / radius
+    def miss(distance: Float[Array, " L"], at: Int[Array, " L"]) -> Float[Array, " L"]:
+        rays = light(observer, directions(observer, base[at] + distance, angle[at]))
+        return _inverse_radius(rays, _crossing_time(rays, order[at])[..., None])[..., 0] - 0.5 / radius[at]
 
+    found, there = np.full(len(radius), np.nan), np.zeros(len(radius), bool)
     with np.errstate(all="ignore"):  # what leads nowhere is told
-        before = guess - base
-        before_missed, now = miss(before), 1.01 * before
+        at, before = np.arange(len(radius)), guess - base
+        before_missed, now = miss(before, at), 1.01 * before
         for _ in range(_SECANTS):
-            missed = miss(now)
+            missed = miss(now, at)
             step = -missed * np.log(now / before) / (missed - before_missed)
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -_LONGEST_SECANT, _LONGEST_SECANT)
-            before, before_missed, now = now, missed, now * np.exp(step)
-        found = base + now
-        there = np.abs(crossing_radius(light(observer, directions(observer, found, angle)), order) / radius - 1.0) < _NEAR
-        there &= np.abs(now - before) < _SETTLED * found
+            after = now * np.exp(step)
+            settled = (np.abs(step) < _SHORT) & (np.abs(after - now) < _SETTLED * (base[at] + after))
+            found[at[settled]] = (base[at] + after)[settled]
+            going = ~settled
+            at, before, before_missed, now = at[going], now[going], missed[going], after[going]
+            if not len(at):
+                break
+        at = np.flatnonzero(np.isfinite(found))
+        looked_at = crossing_radius(light(observer, directions(observer, found[at], angle[at])), order[at])
+        there[at] = np.abs(looked_at / radius[at] - 1.0) < _NEAR
     return found, ~there
 
 

@@ -11,6 +11,7 @@ Carter 1968 (Phys. Rev. 174, 1559); Synge 1966 (MNRAS 131, 463); Teo 2003 (Gen. 
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -291,6 +292,7 @@ def _axis_orbit(spin: float) -> float:
     return float((_barrier_offset(np.asarray(spin * spin), np.asarray(0.0)) - 2.0) / spin)
 
 
+@lru_cache(maxsize=16)
 def _visible_orbits(spin: float, theta: float) -> tuple[float, float]:
     """Range of s of the spherical orbits that reach polar angle theta: roots of beta^2 to either side of lambda = 0."""
     cosine, sine = np.cos(theta), np.sin(theta)

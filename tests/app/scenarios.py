@@ -5,6 +5,7 @@ Each function takes `Hands` and raises AssertionError when something is not as i
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -20,7 +21,7 @@ from hands import Frames, Hands, wait
 from PIL import Image
 
 from blackhole_gl import plan
-from blackhole_gl.app import compass, mouse_values, preset_switch
+from blackhole_gl.app import compass, mouse_values, overlay, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
@@ -540,6 +541,27 @@ def labels_by_key(hands: Hands) -> None:
         assert not asked and not hands.scene.post.labels
     finally:
         labels.after = after
+
+
+def labels_stand_beside_the_figures(hands: Hands) -> None:
+    """No words lie under the figures, under the compass, or on other words, in a window that is small for them."""
+    drawn, corners = [], []
+    figures, directions = overlay.figures, overlay.directions
+    overlay.figures = lambda *given: drawn.append(figures(*given)) or drawn[-1]
+    overlay.directions = lambda *given: drawn.append(directions(*given)) or drawn[-1]
+    try:
+        hands.state.change({"post.labels": True, "camera.distance": 12.0})
+        for inclination in (20.0, 60.0, 85.0):
+            hands.state.change({"camera.inclination_deg": inclination})
+            hands.settle()
+            drawn.clear()
+            hands.context.yield_(2)
+            corners = [*drawn[-2:], *hands.window._labels.words]
+            assert len(corners) > 6 and None not in corners, corners
+            for one, other in itertools.combinations(corners, 2):
+                assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1], (inclination, one, other)
+    finally:
+        overlay.figures, overlay.directions = figures, directions
 
 
 def scale_bar_of_a_real_object(hands: Hands) -> None:

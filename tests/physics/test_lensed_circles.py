@@ -104,13 +104,22 @@ def test_the_critical_curve_is_where_fates_change(camera) -> None:
         np.testing.assert_allclose(found, relativity.shadow_angle(angles, distance, math.radians(inclination), spin, seen_by(*camera).kind), rtol=1e-4)
 
 
-@pytest.mark.parametrize("camera", [(0.9, 20.0, 80.0, "static"), (0.0, 15.0, 60.0, "static"), (0.998, 12.0, 45.0, "static"), (0.5, math.inf, 30.0, "static")])
-def test_circles_are_found_from_where_they_were_by_a_fifth_of_the_looks(camera, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "camera, turned_deg",
+    [
+        ((0.9, 20.0, 80.0, "static"), 2.0),
+        ((0.9, 20.0, 89.5, "static"), 0.3),  # across the critical curve, and in a line that is thinner than a pixel
+        ((0.0, 15.0, 60.0, "static"), 2.0),
+        ((0.998, 12.0, 45.0, "static"), 2.0),
+        ((0.5, math.inf, 30.0, "static"), 2.0),
+    ],
+)
+def test_circles_are_found_from_where_they_were_by_a_fifth_of_the_looks(camera, turned_deg: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """4e-5 rad, of the thousandth of a radius that is asked for at the direct image's 60 r_s to a radian and of the bisection, and
     for a far camera as much of its 40 M; rings lie far closer."""
     spin, distance, inclination, kind = camera
     angles, radii, orders = np.linspace(0.0, 2.0 * np.pi, 90), np.full(3, float(relativity.isco_radius(spin))), np.arange(3)
-    before, now = seen_by(*camera), seen_by(spin, distance * 1.05, inclination - 2.0, kind)
+    before, now = seen_by(*camera), seen_by(spin, distance * 1.05, inclination - turned_deg, kind)
     guess = lensed_circles.circles(before, radii, orders, angles)
     guess *= lensed_circles.shadow_edge(now, angles) / lensed_circles.shadow_edge(before, angles)
     looks = []
