@@ -23,7 +23,7 @@ MOST_PIXELS = 1 << 26
 MOST_ASIDE = 16384
 ALLOWED = "a PNG, JPEG, WebP or BMP file of at most 64 MiB, 16384 pixels a side and 67 million in all"
 
-_FORMATS = ("PNG", "JPEG", "WEBP", "BMP")
+FORMATS = ("PNG", "JPEG", "WEBP", "BMP")
 _KEPT_BYTES = 256 << 20  # of decoded pictures
 
 
@@ -81,7 +81,7 @@ def _decoded(path: Path, most_aside: int) -> Image.Image:
     data = stamps.content(path, MOST_BYTES)
     try:
         with warnings.catch_warnings(action="ignore"):  # of what it refuses itself, and of what it makes do with
-            with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
+            with Image.open(io.BytesIO(data), formats=FORMATS) as image:
                 width, height = image.size
                 if max(image.size) > MOST_ASIDE or width * height > MOST_PIXELS:
                     raise Unusable(f"it has {width}×{height} pixels")

@@ -9,11 +9,11 @@ import moderngl
 import numpy as np
 
 from ..scene import Scene, met
-from ..scene.files import PICTURES
+from ..scene.files import PANORAMAS, PICTURES
 from ..scene.instances import Instances
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field
-from . import picture_files
+from . import mip_levels, panorama_files, picture_files
 from .picture_files import PictureFiles, Stamp
 
 ARRAY = "instance_pictures"
@@ -33,6 +33,11 @@ _FILES = PictureFiles()  # of all contexts
 def is_picture(item: Field) -> bool:
     """Whether `item` names picture files."""
     return item.kind == "file" and set(item.suffixes) <= set(PICTURES)
+
+
+def is_panorama(item: Field) -> bool:
+    """Whether `item` names panoramas."""
+    return item.kind == "file" and not is_picture(item) and set(item.suffixes) <= set(PANORAMAS)
 
 
 def layers(scene: Scene) -> dict[str, int]:
@@ -78,12 +83,13 @@ class Pictures:
 
     def of(self, plug_ins: Iterable[PlugIn], scene: Scene) -> dict[str, moderngl.Texture]:
         """Sampler's name → texture of the pictures that parameters of `plug_ins` name, such as ``sky_picture_file``: light premultiplied by alpha, mipmapped;
-        where no file is named one texel of nothing.
+        where no file is named one texel of nothing. A panorama's are the tiles of a cube.
 
         Raises:
             SceneError: a file cannot be used.
         """
-        return {item.glsl_name: self._texture(item.key, scene) for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item)}
+        named = [item for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item) or is_panorama(item)]
+        return {item.glsl_name: self._texture(item, scene) for item in named}
 
     def of_instances(self, scene: Scene) -> dict[str, moderngl.TextureArray]:
         """The array by its sampler's name; nothing where no thing and no medium names a picture.
@@ -110,18 +116,29 @@ class Pictures:
             self._array[1].release()
         self._single, self._array = {}, None
 
-    def _texture(self, key: str, scene: Scene) -> moderngl.Texture:
-        value = scene.get(key)
-        stamp = picture_files.stamp(key, value) if isinstance(value, str) and value else None
+    def _texture(self, item: Field, scene: Scene) -> moderngl.Texture:
+        key, value = item.key, scene.get(item.key)
+        own = panorama_files if is_panorama(item) else picture_files
+        stamp = own.stamp(key, value) if isinstance(value, str) and value else None
         kept = self._single.get(key)
         if kept is not None and kept[0] == stamp:
             return kept[1]
-        texels = np.zeros((1, 1, 4), np.float16) if stamp is None else _FILES.read(key, stamp, self._most_aside)
+        levels: tuple[np.ndarray, ...]
+        if stamp is None:
+            levels = (np.zeros((1, 1, 4), np.float16),)
+        else:
+            levels = panorama_files.read(key, stamp) if is_panorama(item) else (_FILES.read(key, stamp, self._most_aside),)
         if kept is not None:
             kept[1].release()
-        texture = self._ctx.texture((texels.shape[1], texels.shape[0]), 4, np.ascontiguousarray(texels), dtype="f2")
+        rows, columns, components = levels[0].shape
+        texture = self._ctx.texture((columns, rows), components, np.ascontiguousarray(levels[0]), dtype="f2", alignment=1)
         texture.repeat_x = texture.repeat_y = False
-        self._finish(texture)
+        if len(levels) > 1:
+            mip_levels.build(self._ctx, texture, levels[0], list(levels[1:]))
+        else:
+            texture.build_mipmaps()
+        texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
+        self.made += 1
         self._single[key] = stamp, texture
         return texture
 
@@ -130,13 +147,10 @@ class Pictures:
         data = b"".join(_resized(picture, (width, height)).tobytes() for picture in pictures)
         texture = self._ctx.texture_array((width, height, len(pictures)), 4, data, dtype="f2")
         texture.repeat_x, texture.repeat_y = True, False  # round a globe the last column meets the first
-        self._finish(texture)
-        return texture
-
-    def _finish(self, texture: moderngl.Texture | moderngl.TextureArray) -> None:
         texture.build_mipmaps()
         texture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
         self.made += 1
+        return texture
 
 
 def _layer_size(pictures: list[np.ndarray]) -> tuple[int, int]:

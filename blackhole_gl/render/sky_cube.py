@@ -18,6 +18,17 @@ def on_cube(face: Array, u: Array, v: Array) -> Array:
     return picked / np.linalg.norm(picked, axis=-1, keepdims=True)
 
 
+def on_face(face: int, u: Array, v: Array) -> Array:
+    """The same of places on one face, and beside it."""
+    found = np.empty((*u.shape, 3), u.dtype)
+    axis = face // 2
+    found[..., axis] = 1.0 - 2.0 * (face % 2)
+    found[..., (axis + 1) % 3] = _flat(u)
+    found[..., (axis + 2) % 3] = _flat(v)
+    found *= (1.0 / np.sqrt(np.einsum("...k,...k->...", found, found)))[..., None]
+    return found
+
+
 def place_of(direction: Array) -> tuple[Array, Array, Array]:
     """Face, u and v of directions (…, 3)."""
     size = np.abs(direction)
