@@ -1,10 +1,12 @@
 #version 330 core
-// Nodes (reach_nodes.frag) → 1 for each cell between four of them that may show anything of the balls, else 0: its corners end otherwise, or one comes near.
+// Nodes (reach_nodes.frag, reach_field.frag) → for each cell between four of them REACHED_NONE; the share n/255 where the ball n − 1 alone can be seen, as it hides the
+// rest from all of them; REACHED_ANY where any may be seen: its corners end otherwise, or come near several.
 // REACH_FINER: of cells half as wide as those that were found first, and in these alone.
 #defines
 #include "common/constants.glsl"
+#include "common/reach_node.glsl"
 
-uniform sampler2D nodes;
+uniform usampler2D nodes;
 #if REACH_FINER
 uniform sampler2D found_first;
 #endif
@@ -13,12 +15,20 @@ out float near;
 
 void main() {
     ivec2 first = ivec2(gl_FragCoord.xy);
-    vec4 corners;
-    for (int k = 0; k < 4; ++k)
-        corners[k] = texelFetch(nodes, first + ivec2(k % 2, k / 2), 0).r;
-    bool clear = corners == corners.xxxx && fract(corners.x) == 0.0 && corners.x != float(UNRESOLVED);
+    uint corner = texelFetch(nodes, first, 0).r, hidden = node_reached(corner).hidden, any = 0u;
+    bool alike = true, hides = hidden > 0u;
+    for (int k = 0; k < 4; ++k) {
+        uint node = texelFetch(nodes, first + ivec2(k % 2, k / 2), 0).r;
+        Reached reached = node_reached(node);
+        any |= reached.near;
+        alike = alike && node_fate(node) == node_fate(corner);
+        hides = hides && reached.hidden == hidden;
+    }
+    bool clear = alike && any == 0u && node_fate(corner) != UNRESOLVED;
+    hides = hides && any == 1u << (hidden - 1u);
+    near = clear ? REACHED_NONE : hides ? float(hidden) / 255.0 : REACHED_ANY;
 #if REACH_FINER
-    clear = clear || texelFetch(found_first, first / 2, 0).r == 0.0;
+    float before = texelFetch(found_first, first / 2, 0).r;
+    near = before < REACHED_ANY ? before : near;
 #endif
-    near = clear ? 0.0 : 1.0;
 }

@@ -18,7 +18,7 @@
 uniform int reach_steps;
 uniform float reach_step; // pixels from ray to ray
 
-out float node; // fate, and half of one where it comes near
+out uint node;
 
 const int PIECES = 4; // of a step that is no cubic in space
 
@@ -62,7 +62,7 @@ void main() {
     Spot here = spot_of(path);
     float margin = reach_margin(here);
     int fate = UNRESOLVED;
-    bool near = false;
+    Reached reached = NONE_REACHED;
     for (int k = 0; k < reach_steps; ++k) {
         march_once(orbit, m);
         Path old = path;
@@ -82,10 +82,11 @@ void main() {
             if (done + 1 == pieces) after = here;
             vec2 gone = min(vec2(distance(begun, before.x), distance(begun, after.x)) / max(way, 1e-20), 1.0);
             vec2 margins = mix(vec2(margin_before), vec2(margin), gone) + (falls && pieces > 1 ? BENT * min(length(after.x), BENT_WITHIN) : 0.0);
-            near = near || under_way && comes_near(before, after, margins);
+            Reached found = balls_near(before, after, margins);
+            if (under_way) reached = reached_on(reached, found);
             before = after;
         } while (++done < pieces);
         fate = under_way ? (leaves ? ESCAPED : falls ? CAPTURED : UNRESOLVED) : fate;
     }
-    node = float(fate) + (near ? 0.5 : 0.0);
+    node = packed_node(fate, reached);
 }

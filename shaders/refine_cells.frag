@@ -11,7 +11,10 @@
 
 uniform usampler2D kinds;
 #if MEETINGS
-uniform sampler2D reached; // 1 for each cell that may show a thing
+uniform sampler2D reached; // more than 0 for each cell that may show a thing
+#endif
+#if CELLS_FILLED
+uniform sampler2D solid;   // 1 for each that one thing fills
 #endif
 
 layout(location = 0) out uint cell_out;
@@ -59,9 +62,14 @@ void main() {
 #else
     const bool things = false;
 #endif
+#if CELLS_FILLED
+    bool filled = texelFetch(solid, ivec2(gl_FragCoord.xy), 0).r > 0.0;
+#else
+    const bool filled = false;
+#endif
     trusted = trusted && !things;
     cell_out = trusted ? cell | (disk ? 256u : 0u) : things ? 0u : CELL_WITHOUT_THINGS;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
     int shared_class = disk ? PIXEL_MATTER : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
-    class_out = class_depth(trusted ? shared_class : things ? PIXEL_THING : PIXEL_OWN_RAY);
+    class_out = class_depth(trusted ? shared_class : filled ? PIXEL_SOLID_THING : things ? PIXEL_THING : PIXEL_OWN_RAY);
 }

@@ -11,6 +11,6 @@ uniform float all_traced;       // 1 where every pixel now has a ray of its own,
 
 void main() {
     float found = textureLod(cell_classes, gl_FragCoord.xy * pixels_to_cells, 0.0).r;
-    bool is_thing = found > class_depth(PIXEL_THING) - 0.05;
+    bool is_thing = found > class_depth(PIXEL_SOLID_THING) - 0.05;
     gl_FragDepth = all_traced > 0.0 && !is_thing ? min(found, 1.0 - found) : found;
 }

@@ -2,9 +2,9 @@
 // Hit map → depth: what a pixel will need, so that the depth test can keep the disk's and the sky's shaders from pixels that
 // do not need them. (A branch would not: docs/llvmpipe.md.)
 //
-// PIXEL_MATTER, PIXEL_SKY, PIXEL_NEITHER or PIXEL_THING, in this order of depth: all that may cross the disk are nearer than one depth, all that may be of the
-// sky nearer than another, one draw each, and those that show a thing or a medium farther than a third. The few that cross the disk and are not of the sky are
-// black in it.
+// PIXEL_MATTER, PIXEL_SKY, PIXEL_NEITHER, PIXEL_SOLID_THING or PIXEL_THING, in this order of depth: all that may cross the disk are nearer than one depth, all that
+// may be of the sky nearer than another, one draw each, and those that show a thing or a medium farther than a third, with those that may be of the sky, too,
+// farther than a fourth. The few that cross the disk and are not of the sky are black in it.
 //
 // And marks by which edges are found, as that takes the same texels.
 #defines
@@ -34,5 +34,5 @@ void main() {
 #if MEETINGS
     thing = hits.meeting[0].kind >= 0;
 #endif
-    gl_FragDepth = class_depth(thing ? PIXEL_THING : disk ? PIXEL_MATTER : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
+    gl_FragDepth = class_depth(thing ? (hits.fate == MET ? PIXEL_SOLID_THING : PIXEL_THING) : disk ? PIXEL_MATTER : hits.fate == ESCAPED ? PIXEL_SKY : PIXEL_NEITHER);
 }

@@ -27,7 +27,9 @@ class PixelClass(IntEnum):
     NEITHER = 4
     FLAT_SKY = 7
     """As SKY, and directions may be interpolated linearly: nothing else is read. With `SKY` it adds up to 9, so that one minus its depth is that of SKY."""
-    THING = 8
+    SOLID_THING = 8
+    """Its ray ends on a thing: nothing of the sky."""
+    THING = 9
     """May show a thing or a medium, and may need anything; with a ray of its own, as `OWN_RAY`, which shows none."""
 
     @property

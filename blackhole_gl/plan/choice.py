@@ -109,13 +109,23 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
         return Choice(_plainly(scene), None, None, math.nan, True, ("nothing was measured that fits: plain steps",))
     floor = min(p.error_px for p in found)
     good = [p for p in found if p.error_px <= scene.rays.tolerance]
+    by_things = is_field(scene) and not met.is_empty(scene) and any(map(_adapts, good)) and not all(map(_adapts, good))
+    if by_things:
+        good.sort(key=_adapts)
     ranked = good or sorted(found, key=lambda p: p.error_px)
     best = ranked[0]
     rival = next((p for p in ranked[1:] if p.method.kind != best.method.kind), None)
     reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
+    if by_things:
+        reasons.append("methods whose steps have one length come first: by those coarse rays tell where things are seen while the camera moves")
     if rival is not None:
         reasons.append(f"runner-up: {rival.method}, {rival.error_px:.2g} px at {rival.cost:.3g} flat frames")
     return Choice(_stated(scene, best), best, rival, floor, bool(good), tuple(reasons))
+
+
+def _adapts(found: Prediction) -> bool:
+    control = found.method.step_control
+    return bool(control) and catalogue.plug_ins("step_control")[control].traits.adapts
 
 
 def is_open(scene: Scene) -> bool:
@@ -244,7 +254,7 @@ def measurements() -> Mapping[str, Sequence[Measured]]:
 
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
-    for kept in (_nearest_scenes, _candidates, _rows_by_method, choose, refinement):
+    for kept in (_nearest_scenes, _measured_fields, _candidates, _rows_by_method, choose, refinement):
         kept.cache_clear()
 
 
@@ -316,16 +326,30 @@ def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
 
 
 def _is_alike(scene: Scene, row: Measured) -> bool:
-    """Whether the measured scene of `row` is of the same field as `scene`, or both are of holes."""
+    """Whether the measured scene of `row` is of the same field as `scene`, or both are of holes.
+
+    A field that was not measured is like the one of its kind that is as it comes.
+    """
     if is_field(scene):
-        return row.model == scene.rays.model
+        return row.model == scene.rays.model and row.field == (field_text(scene) if _is_as_measured(scene) else "")
     return not catalogue.plug_ins("ray_model")[row.model].traits.field
 
 
 def _is_as_measured(scene: Scene) -> bool:
-    """Whether the field of `scene` is the one that was measured: with the parameters that it comes with."""
+    """Whether the field of `scene` was measured with the parameters that it has there."""
+    return (scene.rays.model, field_text(scene)) in _measured_fields()
+
+
+@lru_cache(maxsize=1)
+def _measured_fields() -> frozenset[tuple[str, str]]:
+    return frozenset((rows[0].model, rows[0].field) for rows in measurements().values())
+
+
+def field_text(scene: Scene) -> str:
+    """The parameters of the field of `scene` that are not as they come, as the table names them: ``refraction.size=5.0;…``; empty where all are."""
     known = {**ray_model(scene).parameters, **{key: scene.field(key) for key in ("rays.field_radius", "rays.field_way")}}
-    return all(scene.get(key) == item.default for key, item in known.items())
+    changed = {key.removeprefix("rays."): scene.get(key) for key, item in known.items() if scene.get(key) != item.default}
+    return ";".join(f"{key}={value}" for key, value in sorted(changed.items()))
 
 
 def _distance(scene: Scene, row: Measured) -> float:

@@ -19,6 +19,9 @@ SPARE_TURNS = 3.0
 # Coarse rays that tell where things can be seen are given up after half a turn more than they need to pass the hole; beside those anything may be seen.
 _REACH_TURNS = 0.5
 
+# Ways through a field's sphere by its width, at most, that are looked at so.
+_WINDING = 1.5
+
 # More steps would cost as much as what they spare.
 _MOST_REACH_STEPS = 64
 
@@ -264,11 +267,12 @@ def _march_bound(scene: Scene, model: PlugIn) -> float:
 
 def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
     """`Plan.reach_steps`. Neighbours have to take steps of like length, and things to be bound to a place beside the hole."""
-    if met.is_empty(scene) or control is None or control.traits.adapts or model.traits.field or math.isinf(scene.camera.distance):
+    if met.is_empty(scene) or control is None or control.traits.adapts or math.isinf(scene.camera.distance):
         return 0
     if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
         return 0
-    steps = math.ceil(_steps_needed(scene, model, control, _REACH_TURNS)) + 2
+    needed = _WINDING * 2.0 * scene.rays.field_radius / scene.rays.step_length if model.traits.field else _steps_needed(scene, model, control, _REACH_TURNS)
+    steps = math.ceil(needed) + 2
     return steps if steps <= _MOST_REACH_STEPS else 0
 
 

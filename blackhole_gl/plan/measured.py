@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import math
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, fields
@@ -47,6 +48,7 @@ class Measured:
         refined: 1 for a refined hit map, as it is while the camera moves: rays are the pixels of a picture of `choice.REFINED_SIZE`, traced with
             `choice.REFINED_TOLERANCE`, and that is what is timed. Its crossing_r_99 is relative to the disk's outer radius.
         cost_unrefined: of a refined row: what a ray for every pixel costs at that size.
+        field: what is not as it comes in the field measured, as `choice.field_text` has it; empty for holes.
     """
 
     scene: str
@@ -70,6 +72,7 @@ class Measured:
     step_tolerance: float
     refined: int
     cost_unrefined: float
+    field: str = dataclasses.field(default="", kw_only=True)
 
     @cached_property
     def stated(self) -> Method:
@@ -106,7 +109,8 @@ class Rows(Sequence[Measured]):
 
 def read(path: Path, models: Container[str]) -> dict[str, Rows]:
     """The rows of `models` in the table at `path` that a choice can go by, those with an error and a cost, by their scenes. A column that is not there is one
-    left empty: tables from before there was refinement lack the last two. A row that is no row of numbers is a ValueError when it is asked for.
+    left empty: tables from before there was refinement lack the last three, one of holes may lack the last. A row that is no row of numbers is a ValueError
+    when it is asked for.
 
     Raises:
         OSError: the file cannot be read.
@@ -122,7 +126,7 @@ def read(path: Path, models: Container[str]) -> dict[str, Rows]:
 
 
 def _row(texts: Mapping[str, str]) -> Measured:
-    return Measured(*(read_as(texts.get(name) or absent) for name, read_as, absent in _READ))
+    return Measured(**{name: read_as(texts.get(name) or absent) for name, read_as, absent in _READ})
 
 
 _AS: Mapping[str, tuple[Callable[[str], Any], str]] = {"str": (str, ""), "float": (float, "nan"), "int": (int, "0")}

@@ -26,6 +26,8 @@ SKY = Where(">", PixelClass.SKY.depth_beyond)
 FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1)
 """Those of things too: what is drawn for them has to come later."""
 THINGS = Where("<", PixelClass.FLAT_SKY.depth_beyond)
+OPEN_THINGS = Where("<", PixelClass.SOLID_THING.depth_beyond)
+"""Those of `THINGS` that may be of the sky too."""
 EVERYWHERE = Where("1", 0.5)
 OWN_RAYS = Where(">", PixelClass.OWN_RAY.depth_beyond)
 
@@ -36,7 +38,7 @@ NO_THINGS: Mapping[str, int] = {"MEETINGS": 0}
 
 def own_rays(plan: Plan) -> tuple[tuple[Where, Mapping[str, int]], ...]:
     """The pixels of a refined map that are traced themselves, and the switches of what reads them."""
-    return ((OWN_RAYS, NO_THINGS), (THINGS, {})) if plan.meetings else ((OWN_RAYS, {}),)
+    return ((OWN_RAYS, NO_THINGS), (OPEN_THINGS, {})) if plan.meetings else ((OWN_RAYS, {}),)
 
 
 @contextmanager

@@ -15,7 +15,7 @@ import numpy as np
 from ..physics.observer import cos_sin_deg
 from ..plan import REACH_STEP, REFINE_STEP, Plan
 from . import hit_texels, reach, refinement
-from .classes import NO_THINGS, OWN_RAYS, THINGS
+from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS
 from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
@@ -26,6 +26,7 @@ from .ray_blocks import IN_BLOCKS, FreshBlocks, RayBlocks
 from .squares import Squares
 from .tables import Tables
 from .target import Target
+from .things_grid import ThingsGrid
 
 # Slices that a refined map is sharpened in, one a frame.
 _SLICES = 12
@@ -64,6 +65,7 @@ class HitMap:
         self._reach = reach.Reach(ctx, programs, tables)
         self._changed: tuple[int, Squares] | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
+        self._things = ThingsGrid(ctx, programs)
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
@@ -218,14 +220,20 @@ class HitMap:
     def _trace_refined(self, rays: Draw) -> None:
         inputs = rays.inputs
         if inputs.plan.meetings:
-            reached = self._reach.draw(inputs, self._met.balls)
+            reached = self._reach.draw(inputs, self._met.balls, self._met.fills)
+            solid = None
+            if reached.fills and inputs.plan.meetings == 1:
+                self._bind_tables(rays)
+                solid = self._things.trace(rays, reached)
             coarse = self._programs.get("trace.frag", inputs, NO_THINGS)
             self._bind_tables(coarse)
-            self._grid.trace(coarse, reached)
+            self._grid.trace(coarse, reached.cells, solid)
             self._bind_tables(coarse)
             self._grid.trace_own_rays(coarse, self.textures[: hit_texels.textures(inputs.plan.orders)], OWN_RAYS)
+            if solid is not None:
+                self._things.fill(inputs, self.textures, self._grid.classes)
             self._bind_tables(rays)
-            self._grid.trace_own_rays(rays, self.textures, THINGS)
+            self._grid.trace_own_rays(rays, self.textures, OPEN_THINGS)
         else:
             self._grid.trace(rays, None)
             self._grid.trace_own_rays(rays, self.textures, OWN_RAYS)
@@ -361,6 +369,7 @@ class HitMap:
         """Gives the GL objects back."""
         self.instances.release()
         self._grid.release()
+        self._things.release()
         self._reach.release()
         self._release_targets()
 

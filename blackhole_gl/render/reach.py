@@ -10,7 +10,7 @@ import numpy as np
 from ..physics import motion
 from ..plan import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
-from ..shapes import Float
+from ..shapes import Float, Int
 from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
@@ -29,7 +29,7 @@ _MARKED = Where(">", 0.5)  # by shaders/reach_marks.frag
 ALONE = {"ORDERS": 0, "MEETINGS": 0}
 """The switches of rays that end on nothing and look for no crossing."""
 
-# Rays end where they leave this shell: horizon radii, and r_s about a hole of strength 1, outside which none turns back.
+# Rays end where they leave this shell: horizon radii, and r_s about a hole of strength 1, outside which none turns back. That of a field holds its sphere.
 _INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
@@ -38,8 +38,23 @@ FINER = {"REACH_FINER": 1}
 
 
 @dataclass(frozen=True, eq=False)
+class Reached:
+    """What the cells of a picture may show.
+
+    Attributes:
+        cells: R8, a texel for each cell of ``REFINE_STEP``² pixels, as shaders/reach_cells.frag leaves them.
+        balls: what is held against, as shaders/common/reach.glsl takes it.
+        fills: whether any ball is filled, so that a cell may show it alone.
+    """
+
+    cells: moderngl.Texture
+    balls: moderngl.Texture
+    fills: bool
+
+
+@dataclass(frozen=True, eq=False)
 class _Level:
-    """Nodes, and for each cell between them whether it is near, R8.
+    """Nodes, and for each cell between them what it may show, R8.
 
     Attributes:
         depth: of the nodes, by which they are drawn.
@@ -58,7 +73,7 @@ class _Level:
         nodes = cells[0] + 1, cells[1] + 1
         depth = ctx.depth_texture(nodes)
         return cls(
-            Target.of(ctx, [_texture(ctx, nodes, "f4")], depth), Target.of(ctx, [_texture(ctx, cells, "f1")]), depth, ctx.framebuffer([], depth)
+            Target.of(ctx, [_texture(ctx, nodes, "u4")], depth), Target.of(ctx, [_texture(ctx, cells, "f1")]), depth, ctx.framebuffer([], depth)
         )
 
     def release(self) -> None:
@@ -90,12 +105,18 @@ class Reach:
         self._made: _Made | None = None
         self._balls: moderngl.Texture | None = None
 
-    def draw(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
-        """R8, 1 for each cell of ``REFINE_STEP``² pixels that may show anything within `balls`, centre and radius each in r_s in the plan's frame."""
+    def draw(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], fills: Int[np.ndarray, " balls"]) -> Reached:
+        """What each cell may show of `balls`, centre and radius each in r_s in the plan's frame.
+
+        Args:
+            fills: 1 + kind + 32·index of what fills each and hides what is behind; 0: nothing does.
+        """
         made = self._targets(inputs.size)
-        nodes = self._programs.get("reach_nodes.frag", inputs, ALONE)
-        few = gathered(balls, MOST_BALLS)
-        table = {"reach_balls": self._table(few)}
+        nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", inputs, ALONE)
+        seen = balls[:, 3] > 0.0  # lamps may have no size
+        few = gathered(balls[seen], MOST_BALLS)
+        filled = fills[seen] if np.count_nonzero(seen) == len(few) else np.zeros(len(few), int)
+        table = {"reach_balls": self._table(few, filled)}
         nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
         found: moderngl.Texture | None = None
         for step, level in made.levels.items():
@@ -110,7 +131,7 @@ class Reach:
                 nodes.draw()
             self._judge(inputs, level, found)
             found = level.cells.texture
-        return made.levels[REFINE_STEP].cells.texture
+        return Reached(made.levels[REFINE_STEP].cells.texture, table["reach_balls"], bool(np.any(filled)))
 
     def _mark(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture) -> None:
         """Marks the nodes of the cells in those that were found first."""
@@ -131,7 +152,7 @@ class Reach:
 
     def squares(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> Squares:
         """Those cells, listed. Waits for the GPU."""
-        texture = self.draw(inputs, balls)
+        texture = self.draw(inputs, balls, np.zeros(len(balls), int)).cells
         found = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width)
         rows, columns = np.nonzero(found)
         return Squares.of(np.stack([columns, rows], axis=-1), REFINE_STEP, inputs.size)
@@ -150,11 +171,13 @@ class Reach:
             self._made = _Made(size, {step: _Level.of(self._ctx, size, step) for step in steps(size[1])})
         return self._made
 
-    def _table(self, balls: Float[np.ndarray, "balls 4"]) -> moderngl.Texture:
+    def _table(self, balls: Float[np.ndarray, "balls 4"], fills: Int[np.ndarray, " balls"]) -> moderngl.Texture:
         if self._balls is None:
-            self._balls = self._ctx.texture((MOST_BALLS, 1), 4, dtype="f4")
+            self._balls = self._ctx.texture((MOST_BALLS, 2), 4, dtype="f4")
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
-        self._balls.write(balls.astype(np.float32).tobytes(), (0, 0, len(balls), 1))
+        texels = np.zeros((2, MOST_BALLS, 4), np.float32)
+        texels[0, : len(balls)], texels[1, : len(balls), 0] = balls, fills
+        self._balls.write(texels.tobytes())
         return self._balls
 
 
@@ -182,7 +205,8 @@ def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
 
 
 def _shell(plan: Plan) -> tuple[float, float]:
-    return _INNERMOST * plan.space_time.horizon_radius, max(_OUTERMOST * plan.scene.hole.gravity_strength, plan.reach)
+    least = plan.scene.rays.field_radius if plan.model.traits.field else _OUTERMOST * plan.scene.hole.gravity_strength
+    return _INNERMOST * plan.space_time.horizon_radius, max(least, plan.reach)
 
 
 def gathered(balls: Float[np.ndarray, "balls 4"], most: int) -> Float[np.ndarray, "balls 4"]:

@@ -18,6 +18,9 @@ from .programs import Draw, Programs
 from .squares import Squares
 from .target import Target
 
+FILLED = {"CELLS_FILLED": 1}
+"""The switch of the program that knows of cells which one thing fills."""
+
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
 
@@ -72,12 +75,13 @@ class CoarseGrid:
         """Depth of the picture's size by what each pixel of the last `trace` needs, as shaders/refine_classes.frag writes it."""
         return self._made.classes
 
-    def trace(self, rays: Draw, reached: moderngl.Texture | None) -> None:
+    def trace(self, rays: Draw, reached: moderngl.Texture | None, solid: moderngl.Texture | None = None) -> None:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`.
 
         Args:
             rays: end on nothing but the hole.
-            reached: 1 for each cell that may show a thing; None in a scene without.
+            reached: more than 0 for each cell that may show a thing; None in a scene without.
+            solid: 1 for each cell that one thing fills, which is written for its pixels; None where none is.
         """
         inputs = rays.inputs
         made = self._targets(inputs.size, textures(inputs.plan.orders))
@@ -86,7 +90,7 @@ class CoarseGrid:
         made.rays.frame.use()
         rays.draw()
         self._make_nodes(inputs, made)
-        self._judge_cells(inputs, made, reached)
+        self._judge_cells(inputs, made, reached, solid)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
@@ -128,10 +132,11 @@ class CoarseGrid:
 
     def own_rays(self) -> np.ndarray:
         """Which pixels are traced themselves, bool (height, width), row 0 at the bottom; nodes of the grid left out. Waits for the GPU."""
-        texture = self._made.cells.texture
-        cells = np.frombuffer(texture.read(alignment=1), np.uint16).reshape(texture.height, texture.width)
+        cells, classes = self._made.cells.textures
+        kinds = np.frombuffer(cells.read(alignment=1), np.uint16).reshape(cells.height, cells.width)
+        solid = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(kinds.shape) == round(255.0 * PixelClass.SOLID_THING.depth)
         width, height = self.classes.size
-        return np.kron(cells & 3 == 0, np.ones((REFINE_STEP, REFINE_STEP), bool))[:height, :width]
+        return np.kron((kinds & 3 == 0) & ~solid, np.ones((REFINE_STEP, REFINE_STEP), bool))[:height, :width]
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -150,9 +155,10 @@ class CoarseGrid:
         made.nodes.frame.use()
         nodes.draw()
 
-    def _judge_cells(self, inputs: FrameInputs, made: _Made, reached: moderngl.Texture | None) -> None:
-        cells = self._programs.get("refine_cells.frag", inputs)
-        cells.sample({"kinds": made.nodes.texture} | ({} if reached is None else {"reached": reached}))
+    def _judge_cells(self, inputs: FrameInputs, made: _Made, reached: moderngl.Texture | None, solid: moderngl.Texture | None) -> None:
+        cells = self._programs.get("refine_cells.frag", inputs, {} if solid is None else FILLED)
+        told = {"reached": reached, "solid": solid}
+        cells.sample({"kinds": made.nodes.texture, **{name: texture for name, texture in told.items() if texture is not None}})
         made.cells.frame.use()
         cells.draw()
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
-from .classes import EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, SKY, THINGS, Where
+from .classes import EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
@@ -134,7 +134,7 @@ class ShadePass:
             return
         self._draw_classes(sky, SKY)
         if inputs.plan.meetings:
-            self._draw_classes(sky, THINGS)
+            self._draw_classes(sky, OPEN_THINGS)
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()

@@ -121,7 +121,7 @@ class MetTraits:
         reach: parameters the sum of whose sizes no part of an instance is farther from its centre than, in r_s.
         centre: parameters that are the place of the centre, three; none where it is the hole. A kind that moves has a centre without saying so.
         moves: whether instances have the parameters of `motion` too, a place at rest or an orbit.
-        round: of a kind that moves, whether a ray meets it alike however it is turned about its centre.
+        round: of a kind that moves, whether a ray meets it alike however it is turned about its centre: it is a ball, of the radius that `reach` says.
         increasing: parameters none of which may be larger than the one after it.
     """
 

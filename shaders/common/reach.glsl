@@ -3,8 +3,11 @@
 // Neighbours take steps of like length, so after as many steps they are about as far on their ways, and what is between them across the way is how far apart
 // they are there: the margin by which a ray may miss a ball. It is a difference between the fragments of a quad, so all rays take all steps, those too that
 // have ended. Rays end where they leave the shell between reach_radii, in which all balls lie: there neighbours end alike, whatever step it is in.
+//
+// A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
+#include "common/reach_node.glsl"
 
-uniform sampler2D reach_balls; // a texel each: centre and radius in r_s, in the plan's frame
+uniform sampler2D reach_balls; // a column each: centre and radius in r_s, in the plan's frame; 1 + kind + 32·index of the thing that fills it, 0 where none does
 uniform int reach_count;
 uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second
 
@@ -38,21 +41,23 @@ vec3 slope_against(vec3 velocity, vec3 along) {
     return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
 }
 
-// Whether the way from a to b comes as near to a ball as the margin, which is margin.x where it begins and margin.y where it ends. It bows from its chord by a
+// The balls to which the way from a to b comes as near as the margin, which is margin.x where it begins and margin.y where it ends. It bows from its chord by a
 // cubic, which rates by any parameter tell.
-bool comes_near(Spot a, Spot b, vec2 margin) {
+Reached balls_near(Spot a, Spot b, vec2 margin) {
     vec3 chord = b.x - a.x;
     float size = max(length(chord), 1e-20);
     vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
     float rough = size * roughness(length(before) + length(after));
-    bool near = false;
+    Reached found = NONE_REACHED;
     for (int i = 0; i < reach_count; ++i) {
         vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
         vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);
         vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
-        float room = ball.w + rough + mix(margin.x, margin.y, min(u + ball.w / size, 1.0));
-        near = near || dot(away, away) <= room * room;
+        float room = rough + mix(margin.x, margin.y, min(u + ball.w / size, 1.0)), far = length(away);
+        found.near |= far <= ball.w + room ? 1u << i : 0u;
+        bool fills = texelFetch(reach_balls, ivec2(i, 1), 0).x > 0.0;
+        found.hidden = fills && far + room < ball.w ? uint(i + 1) : found.hidden;
     }
-    return near;
+    return found;
 }

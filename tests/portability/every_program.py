@@ -12,6 +12,7 @@ from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.post import TONE_TABLE
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.render.reach import ALONE, FINER
+from blackhole_gl.render.refinement import FILLED
 from blackhole_gl.render.uniforms import stars_a_pixel
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
@@ -127,9 +128,12 @@ def _of_instances() -> Iterator[Wanted]:
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1}), ("trace.frag", beside_none)):
                 yield path, f"{kind} by {model}", made, switches
             if made.integrator is not None:  # rays in closed form are not looked for coarsely
-                yield "reach_nodes.frag", f"{kind} by {model}", made, ALONE
+                yield "reach_field.frag" if made.model.traits.field else "reach_nodes.frag", f"{kind} by {model}", made, ALONE
                 yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
                 yield "reach_marks.frag", f"{kind} by {model}", made, {}
+                if made.meetings == 1:
+                    filled = ("refine_things.frag", {}), ("refine_bends.frag", {}), ("refine_fill.frag", {}), ("refine_cells.frag", FILLED)
+                    yield from ((path, f"{kind} by {model}", made, switches) for path, switches in filled)
 
 
 def _of_views() -> Iterator[Wanted]:

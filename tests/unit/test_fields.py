@@ -34,6 +34,23 @@ def test_a_field_of_other_parameters_gets_a_control_that_judges_its_steps() -> N
         assert made.step_control is not None and made.step_control.traits.adapts
 
 
+SHIPPED = [info.name for info in presets.available() if info.group == "scene" and presets.load([info.name]).rays.model in FIELDS]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_fields_of_shipped_scenes_are_among_those_measured(name: str) -> None:
+    """By steps of one length, as coarse rays tell by these where things are seen; and what is changed in one is not taken for it."""
+    scene = presets.load([name], {"rays.integrator": "auto", "rays.step_control": "auto", "rays.step_length": 0.0})
+    if not scene.rays.lensing:
+        return
+    made = plan.plan(scene)
+    assert made.step_control is not None and not made.step_control.traits.adapts
+    chosen = choice.choose(scene).chosen
+    assert chosen is not None and chosen.error_px <= scene.rays.tolerance
+    other = plan.plan(scene.with_values({"rays.field_radius": 1.3 * scene.rays.field_radius}))
+    assert other.step_control is not None and other.step_control.traits.adapts
+
+
 def test_steps_that_are_stated_are_kept() -> None:
     made = plan.plan(field("lorenz", rays__integrator="euler", rays__step_control="fixed", rays__step_length=0.3))
     assert made.method == "lorenz, euler, fixed, Δt₀ = 0.3"

@@ -1,0 +1,129 @@
+"""A moving camera's things: coarse rays that meet them, which cells between these one thing fills, and what the pixels of those meet, interpolated.
+
+A cell that a ball alone can show, as it hides the rest (`reach.Reach`), needs no rays of its own where the rays about it all meet that ball, and where it bends
+little enough.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+
+from ..plan import GRID_MARGIN, REFINE_STEP
+from . import hit_texels
+from .classes import THINGS, drawn
+from .inputs import FrameInputs
+from .programs import Draw, Programs
+from .reach import Reached
+from .target import Target
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """All that pictures of one size and number of targets take.
+
+    Attributes:
+        made_for: that size and number.
+        rays: the coarse rays' hits.
+        bends: second differences between the places that they meet things at, along x and along y.
+        solid: of each cell, R8: 1 where it is filled.
+    """
+
+    made_for: tuple[tuple[int, int], int]
+    rays: Target
+    bends: Target
+    solid: Target
+
+    def release(self) -> None:
+        for item in (self.rays, self.bends, self.solid):
+            item.release()
+
+
+class ThingsGrid:
+    """Draws shaders/refine_things.frag, refine_bends.frag and refine_fill.frag."""
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self._made: _Made | None = None
+        self._filled: moderngl.Framebuffer | None = None
+
+    def trace(self, rays: Draw, reached: Reached) -> moderngl.Texture:
+        """R8, 1 for each cell that one thing fills, of the picture of the trace pass `rays`, which meets things; `reached` says what cells may show."""
+        inputs = rays.inputs
+        made = self._targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
+        first = -GRID_MARGIN * REFINE_STEP
+        rays.set(ray_grid=(REFINE_STEP, first, first))
+        made.rays.frame.use()
+        rays.draw()
+        cells = self._programs.get("refine_things.frag", inputs)
+        cells.sample({"things_met": self._met, "reached": reached.cells, "reach_balls": reached.balls})
+        cells.set(refine_px=inputs.plan.refine_px)
+        made.solid.frame.use()
+        cells.draw()
+        bends = self._programs.get("refine_bends.frag", inputs)
+        bends.sample({"things_met": self._met})
+        made.bends.frame.use()
+        bends.draw()
+        return made.solid.texture
+
+    def fill(self, inputs: FrameInputs, textures: list[moderngl.Texture], classes: moderngl.Texture) -> None:
+        """Writes what they meet into `textures`, of the picture's size, for the pixels that show things by `classes`: right where their cell is filled."""
+        if self._filled is None or self._filled.color_attachments != tuple(textures) or self._filled.depth_attachment is not classes:
+            if self._filled is not None:
+                self._filled.release()
+            self._filled = self._ctx.framebuffer(textures, classes)
+        made = self._there
+        fill = self._programs.get("refine_fill.frag", inputs)
+        fill.sample(
+            {
+                "things0": made.rays.texture,
+                "things_met": self._met,
+                "things_way": made.rays.textures[-1],
+                "bend_x": made.bends.textures[0],
+                "bend_y": made.bends.textures[1],
+            }
+        )
+        self._filled.use()
+        self._filled.depth_mask = False
+        with drawn(self._ctx, fill, THINGS):
+            fill.draw()
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for item in (self._filled, self._made):
+            if item is not None:
+                item.release()
+        self._filled = self._made = None
+
+    @property
+    def _there(self) -> _Made:
+        if self._made is None:
+            raise RuntimeError("no coarse grid of things has been traced yet: `trace` comes first")
+        return self._made
+
+    @property
+    def _met(self) -> moderngl.Texture:
+        return self._there.rays.textures[-2]
+
+    def _targets(self, size: tuple[int, int], count: int) -> _Made:
+        if self._made is None or self._made.made_for != (size, count):
+            self.release()
+            self._made = self._make(size, count)
+        return self._made
+
+    def _make(self, size: tuple[int, int], count: int) -> _Made:
+        cells = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
+        nodes = cells[0] + 1 + 2 * GRID_MARGIN, cells[1] + 1 + 2 * GRID_MARGIN
+        return _Made(
+            (size, count),
+            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)]),
+            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f2") for _ in range(2)]),
+            solid=Target.of(self._ctx, [self._texture(cells, 1, "f1")]),
+        )
+
+    def _texture(self, size: tuple[int, int], components: int, dtype: str) -> moderngl.Texture:
+        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
+        texture.filter = moderngl.LINEAR, moderngl.LINEAR
+        texture.repeat_x = texture.repeat_y = False
+        return texture

@@ -1,0 +1,61 @@
+#version 330 core
+// Coarse rays in a field → what becomes of each, and to which balls in space it comes as near as the rays beside it are away (common/reach.glsl): the straight way
+// in, reach_steps steps within the field's sphere, the straight way out. It ends on nothing.
+#defines
+#blocks
+#include "common/constants.glsl"
+#include "common/observer.glsl"
+#include "common/rotation.glsl"
+#include "common/hermite.glsl"
+#include "common/hits.glsl"
+#include "common/curve.glsl"
+#slot ray_model
+#slot integrator
+#slot step_control
+#include "common/march.glsl"
+#include "common/reach.glsl"
+
+uniform int reach_steps;
+uniform float reach_step; // pixels from ray to ray
+
+out uint node;
+
+// Stands for the fate of a ray that passes the sphere by: at its rim the rays beside it break off.
+const int PASSED_BY = CAPTURED;
+
+// The spot at which the straight way on from `here` leaves the shell in which all balls lie; the nearest to its middle where it never is in it.
+Spot straight_end(Spot here) {
+    vec3 v = normalize(here.rate);
+    float along = -dot(here.x, v), inside = reach_radii.y * reach_radii.y - dot(here.x, here.x) + along * along;
+    return Spot(here.x + max(along + sqrt(max(inside, 0.0)), 0.0) * v, v);
+}
+
+void main() {
+    vec2 pixel = reach_step * (gl_FragCoord.xy - 0.5) + 0.5;
+    RayStart start = ray_start(pixel_direction(picture_place(pixel)));
+    Orbit orbit = ray_orbit(start);
+    Hits hits = no_hits(start.lambda);
+    March m = march_start(orbit, ray_init(start, orbit, hits));
+    Path path = ray_path(orbit, m.s);
+    Spot here = spot_of(path), camera = Spot(start.n * (0.5 / start.w), here.rate);
+    float margin = reach_margin(here);
+    Reached reached = balls_near(camera, here, vec2(0.0, margin));
+    int fate = orbit.bends > 0.0 ? UNRESOLVED : PASSED_BY;
+    for (int k = 0; k < reach_steps; ++k) {
+        march_once(orbit, m);
+        Path old = path;
+        path = ray_path(orbit, m.next);
+        bool under_way = fate == UNRESOLVED, leaves = m.fate == ESCAPED;
+        Spot before = here;
+        if (under_way) here = spot_of(leaves ? curve_path(Curve(old, path, m.h), ray_end(orbit, m.s, m.next, m.h)) : path);
+        float margin_before = margin;
+        margin = reach_margin(here);
+        Reached found = balls_near(before, here, vec2(margin_before, margin));
+        if (under_way) reached = reached_on(reached, found);
+        fate = under_way && leaves ? ESCAPED : fate;
+    }
+    Spot end = straight_end(here);
+    Reached found = balls_near(here, end, vec2(margin, reach_margin(end)));
+    if (fate != UNRESOLVED) reached = reached_on(reached, found);
+    node = packed_node(fate, reached);
+}
