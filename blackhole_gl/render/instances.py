@@ -7,6 +7,7 @@ longer: neither compiles anything.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 
 import moderngl
@@ -22,7 +23,7 @@ from . import hierarchy, lamps, meshes, pictures
 
 _NUMBERS = ("float", "int", "switch", "choice")
 """Kinds of parameters that shaders know, beside lists of two to four numbers; a choice is known by its place among the
-options, a picture by its layer in the array of pictures and a mesh by the first node of its hierarchy, −1 for none."""
+options, a picture by its layer in the array of pictures and a mesh by the first node of its hierarchy, 0 for none."""
 
 _MOTION = ("bound", "velocity", "spin", "attitude")
 """A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
@@ -36,7 +37,7 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
     if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):
         lines.append(f"uniform sampler2DArray {pictures.ARRAY};")
     if any(meshes.is_mesh(item) for kind in kinds for item in kind.parameters.values()):
-        lines.append(f"uniform sampler2D mesh_nodes, mesh_triangles;\n#define MESH_TEXELS {meshes.TEXELS}\n#define MESH_ROW {meshes.ROW}")
+        lines.append(f"uniform isampler2D mesh_nodes;\nuniform sampler2D mesh_triangles;\n#define MESH_TEXELS {meshes.TEXELS}\n#define MESH_ROW {meshes.ROW}")
     lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
@@ -118,9 +119,11 @@ class InstanceTables:
         if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan):
             found = meshes.of(plan.scene)
             files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
-            rows = [_rows(kind, plan, time, files) for kind in used(plan.scene)]
-            tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(used(plan.scene), rows)}
-            tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": _nodes([table[:, 0] for table in rows])}
+            kinds = used(plan.scene)
+            rows = [_rows(kind, plan, time, files) for kind in kinds]
+            nodes = _nodes([table[:, 0] for table in rows], [_moving(kind, plan, files) for kind in kinds])
+            tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)}
+            tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": nodes}
             if found:
                 tables |= {"mesh_nodes": found.nodes, "mesh_triangles": found.triangles}
             self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
@@ -138,8 +141,9 @@ class InstanceTables:
         if texture is None or texture.size != size:
             if texture is not None:
                 texture.release()
-            texture = self._ctx.texture(size, 4, values.tobytes(), dtype="f4")
+            texture = self._ctx.texture(size, 4, values.tobytes(), dtype="i4" if values.dtype == np.int32 else "f4")
             texture.filter = moderngl.NEAREST, moderngl.NEAREST
+            texture.repeat_x = texture.repeat_y = False
         elif before is None or values is not before and values.tobytes() != before.tobytes():
             texture.write(values.tobytes())
         self._kept[name] = values, texture
@@ -151,21 +155,42 @@ def anything_moves(plan: Plan) -> bool:
     return any(motion.movers(plan.scene, slot) for slot in met.SLOTS)
 
 
-def _nodes(bounds: list[np.ndarray]) -> np.ndarray:
-    """The hierarchy's texels, from the bounding spheres (instances, 4) of each kind. A leaf holds 32 times the instance's number, and its kind's."""
-    return _tree(tuple(own.tobytes() for own in bounds))
+def _nodes(bounds: list[np.ndarray], moving: list[np.ndarray]) -> np.ndarray:
+    """The hierarchy's texels, from the bounding spheres (instances, 4) of each kind and which of them move. A leaf holds 32 times the instance's number,
+    and its kind's.
+
+    What stands has a hierarchy of its own, which is kept: where one of a thousand moves, little is made anew.
+    """
+    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(bounds)])
+    spheres, moves = np.concatenate(bounds), np.concatenate(moving)
+    there = spheres[:, 3] > 0.0  # not lamps that are not seen
+    stands, moves = there & ~moves, there & moves
+    standing = _tree(spheres[stands].tobytes(), number[stands].tobytes())
+    if not moves.any():
+        return standing.texels
+    made = hierarchy.build(*_boxes(spheres[moves]))
+    whole = hierarchy.both(standing.tree, made) if stands.any() else made
+    return whole.texels(np.concatenate([number[stands], number[moves]])[whole.order[whole.first]])
+
+
+@dataclass(frozen=True, eq=False)
+class _Standing:
+    """What stands: its hierarchy, and the texels of that alone."""
+
+    tree: hierarchy.Hierarchy
+    texels: np.ndarray
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)
-def _tree(bounds: tuple[bytes, ...]) -> np.ndarray:
-    """`_nodes`, from the bounding spheres' bytes, float32: they are the same while nothing moves."""
-    kinds = [np.frombuffer(own, np.float32).reshape(-1, 4) for own in bounds]
-    spheres = np.concatenate(kinds).astype(float)
-    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(kinds)])
-    there = spheres[:, 3] > 0.0  # not lamps that are not seen
-    spheres, number = spheres[there], number[there]
-    made = hierarchy.build(spheres[:, :3] - spheres[:, 3:], spheres[:, :3] + spheres[:, 3:])
-    return made.texels(number[made.order[made.first]])
+def _tree(spheres: bytes, number: bytes) -> _Standing:
+    """That of bounding spheres, float32, and what the leaves hold that they lie in, both as bytes."""
+    tree = hierarchy.build(*_boxes(np.frombuffer(spheres, np.float32).reshape(-1, 4)))
+    return _Standing(tree, tree.texels(np.frombuffer(number, int)[tree.order[tree.first]]))
+
+
+def _boxes(spheres: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    centre, radius = spheres[:, :3].astype(float), spheres[:, 3:].astype(float)
+    return centre - radius, centre + radius
 
 
 def _width(item: Field) -> int:
@@ -197,6 +222,12 @@ def _rows(kind: PlugIn, plan: Plan, time: float, files: FrozenMap[str, int]) -> 
     rows, texels = values.copy(), len(_motion_names(kind))
     rows[:, :texels] = motion.rows(plan.scene, kind.slot, plan.space_time, time)[own, :texels]
     return rows
+
+
+def _moving(kind: PlugIn, plan: Plan, files: FrozenMap[str, int]) -> np.ndarray:
+    """Which of the instances of `kind` move or turn, bool (instances,)."""
+    own, _ = _values(met.named(plan.scene, kind.slot), kind, files)
+    return np.isin(own, [mover.place for mover in motion.movers(plan.scene, kind.slot)])
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)

@@ -65,11 +65,11 @@ def of(scene: Scene) -> Meshes | None:
 
 
 def _made(meshes: list[tuple[str, Mesh]]) -> Meshes:
-    roots, trees, leaves, triangles = {"": -1}, [], [], []
+    roots, trees, leaves, triangles = {"": 0}, [], [], []
     nodes = count = 0
     for value, mesh in meshes:
         tree = hierarchy.build(mesh.corners.min(axis=1).astype(float), mesh.corners.max(axis=1).astype(float), IN_LEAF)
-        roots[value] = nodes
+        roots[value] = hierarchy.FIRST + nodes
         trees.append(tree)
         leaves.append(4 * (tree.first + count) + tree.count - 1)
         triangles.append(_texels(mesh)[tree.order])

@@ -73,23 +73,33 @@ float part_outside(Curve curve, float r) {
     return t;
 }
 
-float beside(vec3 x, vec3 way) {
-    vec3 off = x - clamp(dot(x, way) / max(dot(way, way), 1e-30), 0.0, 1.0) * way;
-    return dot(off, off);
+// From the nearest place of the piece from the origin along `way` to x.
+vec3 beside(vec3 x, vec3 way) {
+    return x - clamp(dot(x, way) / max(dot(way, way), 1e-30), 0.0, 1.0) * way;
 }
 
-// How far the way between two places of a curve, `part` of its parameter apart, strays from the straight piece between them, at most; r_s. Before the twist it lies
-// between the control points of a rational cubic. A turn by φ moves what is ρ from the axis by less than ρφ²/8 more, and uneven steps of either along the
-// piece by as much as they are uneven.
-float path_stray(Path a, Path b, float part) {
+// How far the way between two places of a curve strays from the straight piece between them, at most, or from that piece moved `aside`, as ways bow to one side.
+struct Stray {
+    float off, moved_off;  // r_s
+    vec3 aside;
+};
+
+// That of two places `part` of the curve's parameter apart. Before the twist the way lies between the control points of a rational cubic. A turn by φ moves what
+// is ρ from the axis by less than ρφ²/8 more, and uneven steps of either along the piece by as much as they are uneven.
+Stray path_stray(Path a, Path b, float part) {
     vec4 first = a.place + part / 3.0 * a.rate, second = b.place - part / 3.0 * b.rate;
     vec3 from = a.place.xyz / a.place.w, way = b.place.xyz / b.place.w - from;
     vec3 p = first.xyz / first.w - from, q = second.xyz / second.w - from;
-    float stray = sqrt(max(beside(p, way), beside(q, way)));
+    vec3 of_p = beside(p, way), of_q = beside(q, way);
+    bool is_p = dot(of_p, of_p) > dot(of_q, of_q);
+    vec3 aside = 0.5 * (is_p ? of_p : of_q), other = (is_p ? of_q : of_p) - aside;
+    float half_off = length(aside), moved = max(half_off, length(other)), stray = 2.0 * half_off;
     float turn = abs(b.twist.x - a.twist.x), uneven = max(abs(part * a.twist.y), abs(part * b.twist.y)) - turn;
     float size = length(from) + length(way) + stray;
-    stray += turn * (0.5 * length(way) + 0.125 * turn * size) + max(uneven, 0.0) / 3.0 * size;
-    return min(min(first.w, second.w), min(a.place.w, b.place.w)) > 0.0 ? stray : 1e30;
+    float twisted = turn * (0.5 * length(way) + 0.125 * turn * size) + max(uneven, 0.0) / 3.0 * size;
+    bool ends = min(min(first.w, second.w), min(a.place.w, b.place.w)) > 0.0;
+    aside.xy = rotate(aside.xy, cos_sin(a.twist.x));
+    return Stray(ends ? stray + twisted : 1e30, moved + turn * half_off + twisted, aside);
 }
 
 // Whether nothing within `reach` of the hole is met from a on, as the way from there to b leads outwards.

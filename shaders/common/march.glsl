@@ -149,7 +149,7 @@ March march_start(Orbit orbit, State first) {
     m.crossed = false;
 #if MEETINGS
     m.near = false;
-    m.first = 0;
+    m.first = 1;
     m.clear = NOWHERE;
 #endif
 #if !RAYS_EARLY_END
@@ -298,7 +298,7 @@ int steps_gone_on(Orbit orbit, March m) {
 #if RAYS_BOUNDS
         near = may_meet(ray_path(orbit, m.s), ray_path(orbit, m.next), m.h, MARCH_REMEMBERS, m.clear, m.first);
 #endif
-        if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0, 0).at;
+        if (near) found += next_meeting(way_of(orbit, m), 0.0, 1.0, 1).at;
 #endif
     }
     return m.steps + (abs(ray_height(m.next)) + found < -plan_step_length ? 1 : 0);

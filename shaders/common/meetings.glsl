@@ -14,7 +14,7 @@
 #include "common/disk_plane.glsl"
 
 uniform float meeting_reach;        // r_s from the hole, beyond which there is nothing to meet
-uniform sampler2D meeting_nodes;    // the hierarchy of all instances; a leaf holds 32·index + kind
+uniform isampler2D meeting_nodes;   // the hierarchy of all instances; a leaf holds 32·index + kind
 
 const int MEETING_NONE = -1;
 
@@ -49,6 +49,13 @@ const float STRAY_SHARE = 1e-3, MOST_STRAY = 5e-3;
 
 float stray_allowed(float size) {
     return min(STRAY_SHARE * size, MOST_STRAY);
+}
+
+// That of the ball that an instance lies in, r_s.
+float size_of(int kind, int index) {
+#each thing : if (kind_$key(kind)) return thing_$key_bound(index).w;
+#each medium : if (kind_$key(kind)) return medium_$key_bound(index).w;
+    return 0.0;
 }
 
 // What a step passes through the surface that it comes to by, in r_s, of a thing of that size at x: less than things are thick, more than x is rounded by.
@@ -109,20 +116,20 @@ void meet(Found found, vec3 place, Momentum momentum, inout Hits hits) {
 // `stray`, the piece is too long for what it is near to, and nothing else is told.
 Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
     Found found = NOTHING_FOUND;
-    Piece piece = piece_of(x, y, stray);
-    int number = stray < 1e29 ? first : -1;
+    Piece piece = piece_of(meeting_nodes, x, y, stray);
+    int number = stray < 1e29 ? first : 0;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
-    while (number >= 0) {
+    while (number > 0) {
         Node leaf;
         number = next_leaf(meeting_nodes, piece, number, min(found.at, 1.0), true, leaf);
-        if (number >= 0) {
-            float size = half_width(leaf);
-            allowed = min(allowed, max(stray_allowed(size), piece.pad - stray));  // no finer than single precision
-            int kind = int(leaf.high.w) & 31, index = int(leaf.high.w) >> 5;
+        if (number > 0) {
+            int kind = held(leaf) & 31, index = held(leaf) >> 5;
+            float size = size_of(kind, index);
+            allowed = min(allowed, max(stray_allowed(size), rounding(x, y)));  // no finer than single precision
             bool enters;
             float part = met_part(kind, index, size, x, y, enters);
             if (part < found.at) found = Found(kind, index, part, size, enters);
-            number = stray > allowed ? -1 : int(leaf.low.w);
+            number = stray > allowed ? 0 : next_node(leaf, number, true);
         }
     }
     return found;
@@ -131,38 +138,39 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
 // A ball in which there is nothing to meet: centre and radius in r_s.
 const vec4 NOWHERE = vec4(0.0, 0.0, 0.0, -1.0);
 
-// How far x is at least from what a leaf holds, or what is below another node.
-float room_beside(Node node, vec3 x) {
-    float room = distance(x, clamp(x, node.low.xyz, node.high.xyz));
-    return is_leaf(node) ? max(room, distance(x, 0.5 * (node.low.xyz + node.high.xyz)) - half_width(node)) : room;
+// How far the piece's end is at least from what a leaf holds, or what is below another node; in cells.
+float room_beside(Node node, Piece piece) {
+    vec3 end = piece.x + piece.way;
+    float room = distance(end, clamp(end, node.low, node.high));
+    return is_leaf(node) ? max(room, distance(end, middle(node)) - half_width(node)) : room;
 }
 
 // Whether anything may be met on the way from a to b, one step of the march of length h, and the `first` leaf of which that may be: no piece of the way need look
 // at those before. Where it `remembers`, `clear` is what is known from the steps before, and from this one.
 bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, out int first) {
-    first = 0;
+    first = 1;
     if (path_leaves(a, b, meeting_reach)) return false;
     if (min(a.place.w, b.place.w) <= 0.0) return true;
-    float stray = path_stray(a, b, h);
+    Stray stray = path_stray(a, b, h);
     vec3 x = path_point(a), y = path_point(b);
-    Piece piece = piece_of(x, y, stray);
-    bool is_clear = remembers && max(distance(x, clear.xyz), distance(y, clear.xyz)) + piece.pad < clear.w;
-    bool near = !is_clear && stray > 1e29;
-    int number = is_clear || near ? -1 : 0;
+    Piece piece = piece_of(meeting_nodes, x + stray.aside, y + stray.aside, stray.moved_off);
+    bool is_clear = remembers && max(distance(x, clear.xyz), distance(y, clear.xyz)) + stray.off + rounding(x, y) < clear.w;
+    bool near = !is_clear && stray.off > 1e29;
+    int number = is_clear || near ? 0 : 1;
     float room = 1e30;
-    while (number >= 0) {
+    while (number > 0) {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
         near = met && is_leaf(node) && meets_ball(piece, node);
 #if MEETINGS_BY_DISTANCE
-        int kind = int(node.high.w) & 31, index = int(node.high.w) >> 5;
-        if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray + overstep(1.0, x);
+        int kind = held(node) & 31, index = held(node) >> 5;
+        if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray.off + overstep(1.0, x);
 #endif
-        if (remembers && (!met || is_leaf(node))) room = min(room, room_beside(node, y));  // no more of the hierarchy is walked to find out
+        if (remembers && (!met || is_leaf(node))) room = min(room, room_beside(node, piece));  // no more of the hierarchy is walked to find out
         if (near) first = number;
-        number = near ? -1 : next_node(node, number, met);
+        number = near ? 0 : next_node(node, number, met);
     }
-    if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y, room);
+    if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y + stray.aside, piece.cell * room);
     return near;
 }
 
@@ -193,7 +201,7 @@ Found next_meeting(Way way, float from, float to, int first) {
         float next = min(t + part, t < 0.5 ? min(last, 0.5) : last), allowed;
         Path there = way_path(way, next);
         vec3 y = path_point(there);
-        float stray = path_stray(here, there, next - t);
+        float stray = path_stray(here, there, next - t).off;
         found = first_on_piece(x, y, stray, first, allowed);
         if (stray > allowed) {
             found = NOTHING_FOUND;
@@ -266,7 +274,7 @@ bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, 
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
         float ignored;
-        Found found = first_on_piece(x + from * v, x + last * v, 0.0, 0, ignored);
+        Found found = first_on_piece(x + from * v, x + last * v, 0.0, 1, ignored);
         bool none = found.kind == MEETING_NONE || from >= last;
         float s = mix(from, last, found.at);
         if (crosses && (none || s_crossing < s)) {

@@ -63,15 +63,15 @@ void meet_triangle(int triangle, vec3 x, vec3 way, inout MeshSpot found) {
 // The first triangle of the mesh with the first node `root` on the piece from x to y, both in its own axes.
 MeshSpot meet_mesh(int root, vec3 x, vec3 y) {
     MeshSpot found = MeshSpot(2.0, -1, vec3(1.0, 0.0, 0.0), true);
-    Piece piece = piece_of(x, y, 0.0);
+    Piece piece = piece_of(mesh_nodes, x, y, 0.0);
     int number = root;
-    while (number >= 0) {
+    while (number > 0) {
         Node leaf;
         number = next_leaf(mesh_nodes, piece, number, min(found.part, 1.0), false, leaf);
-        if (number >= 0) {
-            int first = int(leaf.high.w) >> 2, last = first + (int(leaf.high.w) & 3);
+        if (number > 0) {
+            int first = held(leaf) >> 2, last = first + (held(leaf) & 3);
             for (int triangle = first; triangle <= last; ++triangle) meet_triangle(triangle, x, y - x, found);
-            number = int(leaf.low.w);
+            number = next_node(leaf, number, true);
         }
     }
     return found;
@@ -97,7 +97,7 @@ float thing_mesh_crossing(int i, vec3 x, vec3 y, out bool enters) {
     float half_chord = sqrt(max(1.05 - dot(aside, aside), 0.0) / way2);
     float begin = max(nearest - half_chord, 0.0), end = min(nearest + half_chord, 1.0);
     vec3 near = aside + (begin - nearest) * way, far = aside + (end - nearest) * way;
-    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : -1, near, far);
+    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far);
     enters = found.enters;
     return found.part <= 1.0 ? mix(begin, end, found.part) : 2.0;
 }

@@ -18,14 +18,22 @@ def _boxes(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 def _walked(texels: np.ndarray, point: np.ndarray) -> tuple[list[int], int]:
     """What the leaves hold whose boxes hold the point, and how many nodes were looked at: shaders/common/hierarchy.glsl."""
-    nodes, found, node, looks = texels.reshape(-1, 2, 4), [], 0, 0
-    while node >= 0:
-        low, high = nodes[node]
-        met, leaf = bool(np.all(low[:3] <= point) and np.all(point <= high[:3])), high[3] >= 0
-        found += [int(high[3])] if met and leaf else []
-        node = node + 1 if met and not leaf else int(low[3])
+    nodes, found, node, looks = texels.reshape(-1, 4), [], hierarchy.FIRST, 0
+    while node > 0:
+        (low, high), link = _box(nodes, node), int(nodes[node, 3])
+        met, leaf = bool(np.all(low <= point) and np.all(point <= high)), link < 0
+        found += [(-1 - link) >> 1] if met and leaf else []
+        follows = link & 1 == 1 if leaf else met
+        node = node + 1 if follows else max(link, 0)
         looks += 1
     return found, looks
+
+
+def _box(nodes: np.ndarray, node: int) -> np.ndarray:
+    """Its low and its high corner."""
+    *corner, cell = nodes[0].view(np.float32).astype(float)
+    sides = nodes[node, :3].view(np.uint32).astype(np.int64)
+    return np.array(corner) + cell * np.stack([sides & 65535, sides >> 16])
 
 
 @settings(max_examples=60, deadline=None)
@@ -43,6 +51,18 @@ def test_a_walk_finds_every_box_that_holds_a_point(count: int, seed: int, in_lea
         assert inside <= seen
 
 
+@settings(max_examples=30, deadline=None)
+@given(st.integers(1, 30), st.integers(1, 30), st.integers(0, 1000))
+def test_a_walk_through_two_joined_finds_what_either_holds(first: int, second: int, seed: int) -> None:
+    low, high = _boxes(first + second, seed)
+    made = hierarchy.both(hierarchy.build(low[:first], high[:first]), hierarchy.build(low[first:], high[first:]))
+    texels = made.texels(made.order[made.first])
+    assert sorted(made.order) == list(range(first + second))
+    for point in 0.5 * (low + high):
+        inside = {int(item) for item in np.flatnonzero(np.all((low <= point) & (point <= high), axis=1))}
+        assert inside <= set(_walked(texels, point)[0])
+
+
 def test_few_nodes_are_looked_at_for_a_point_among_many_boxes() -> None:
     low, high = _boxes(10_000, 1)
     texels = hierarchy.build(low, high).texels(np.arange(19_999))
@@ -53,4 +73,14 @@ def test_few_nodes_are_looked_at_for_a_point_among_many_boxes() -> None:
 @pytest.mark.parametrize("value", [0.1, -0.1, 1e5 / 3.0])
 def test_boxes_are_rounded_outwards(value: float) -> None:
     texels = hierarchy.build(np.full((1, 3), value), np.full((1, 3), value)).texels(np.array([0]))
-    assert np.all(texels[0, 0, :3] < value) and np.all(texels[0, 1, :3] > value)
+    low, high = _box(texels[0], hierarchy.FIRST)
+    assert np.all(low < value) and np.all(high > value) and np.all(high - low < 1e-6 * abs(value))
+
+
+def test_boxes_far_from_where_places_are_counted_are_as_narrow_as_single_precision_has_them() -> None:
+    low = np.array([[1000.0, -3.0, 7.0], [1000.1, -3.0, 7.05]])
+    texels = hierarchy.build(low, low + 0.02).texels(np.arange(3))
+    for node in (2, 3):
+        found = _box(texels[0], node)
+        box = int(np.argmin(np.abs(low[:, 0] - found[0, 0])))
+        assert np.all(found[0] < low[box]) and np.all(found[1] > low[box] + 0.02) and np.all(np.abs(found - [low[box], low[box] + 0.02]) < 5e-4)
