@@ -93,7 +93,7 @@ class ShadePass:
     ) -> None:
         """The sky into the target, of which `frame` is the one with the pixels' `classes`.
 
-        It does not depend on time: where the same one is asked for again it is kept, and copied from then on.
+        Few skies depend on time: where the same one is asked for again it is kept, and copied from then on.
         """
         scene = inputs.plan.scene
         if not scene.sky.enabled:
@@ -101,8 +101,10 @@ class ShadePass:
             return
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
-        pictures = self._tables.pictures.of(chosen(inputs.plan, "sky"), scene)
-        key = (sky.serial, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0)
+        skies = chosen(inputs.plan, "sky")
+        pictures = self._tables.pictures.of(skies, scene)
+        time = inputs.time if any(kind.traits.changes for kind in skies) else 0.0
+        key = (sky.serial, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0, time)
         before, self._sky_sorting = self._sky_sorting, self._sorted.key if self._sorted is not None else None
         changed = self._sorted.changed if self._sorted is not None and self._sorted.key != before and self._sorted.before == before else None
         stale = before != self._sky_sorting and changed is None

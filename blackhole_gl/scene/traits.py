@@ -176,9 +176,11 @@ class SkyTraits:
 
     Attributes:
         stars: how many points of light it may have in a pixel, which are drawn apart where a coarse picture would smear them (shaders/shade_sky.frag).
+        changes: whether it is another at another time; else it is kept while camera and scene rest.
     """
 
     stars: Annotated[int, Between(0, 16)] = 0
+    changes: bool = False
 
 
 Traits = RayModelTraits | IntegratorTraits | StepControlTraits | DiskLayerTraits | ThingTraits | MediumTraits | SkyTraits
