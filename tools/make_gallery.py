@@ -55,6 +55,9 @@ SHOTS = (
     Shot("m87_like", ("m87_like",)),
     Shot("gargantua_as_filmed", ("gargantua_as_filmed",)),
     Shot("luminet_1979", ("luminet_1979",)),
+    Shot("plunging_matter", ("plunging_matter",)),
+    Shot("hot_spot", ("hot_spot",)),
+    Shot("tilted_disk", ("tilted_disk",)),
     Shot("m87_eht", ("m87_eht",)),
     Shot("sgr_a_eht", ("sgr_a_eht",)),
     Shot("shadow", ("kerr_0998_85",), {"disk.enabled": False, "camera.distance": 6.0, "camera.fov_deg": 70.0, "sky.brightness": 2.0, "post.exposure": 1.5}),
@@ -81,6 +84,7 @@ SHOTS = (
     Shot("cloudy_slab", ("cloudy_slab",), time=24.0),
     Shot("jet", ("jet",)),
     Shot("real_sky", ("real_sky",)),
+    *(Shot(f"gold_{number}", (f"gold_{number}",)) for number in range(1, 6)),
 )
 
 

@@ -122,8 +122,7 @@ def _sections() -> Mapping[str, list[Field]]:
     """The rows of each section: what physics names, then art, then the plug-ins' own."""
     found: dict[str, list[Field]] = {}
     for key, item in fields().items():
-        if not item.idle:
-            found.setdefault(key.split(".", 1)[0], []).append(item)
+        found.setdefault(key.split(".", 1)[0], []).append(item)
     return {section: sorted(items, key=lambda item: (_plug_in_of(item) is not None, item.art)) for section, items in found.items()}
 
 

@@ -132,7 +132,7 @@ def is_physical(scene: Scene) -> bool:
 
 
 def chart_scenes(quick: bool = False) -> list[ChartScene]:
-    """The chart's own scenes, then every shipped physics and scene preset that `is_charted`; a quick run has `SHOWN` alone."""
+    """The chart's own scenes, then every shipped physics and scene preset that `is_charted` but those of another's view; a quick run has `SHOWN` alone."""
     kerr = presets.load(["kerr"])
     own = {}
     for name, (spin, distance, inclination, view) in _OWN.items():
@@ -141,7 +141,16 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
         return [ChartScene(name, own[name], 400, whole=False) for name in SHOWN]
     shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group in ("physics", "scene")}
     physical = {name: scene for name, scene in shipped.items() if is_charted(scene)}
+    first = {view_of(scene): name for name, scene in reversed(physical.items())}
+    physical = {name: scene for name, scene in physical.items() if first[view_of(scene)] == name}
     return [ChartScene(name, scene, whole=name in SHOWN) for name, scene in (own | physical).items()]
+
+
+def view_of(scene: Scene) -> tuple[object, ...]:
+    """All of `scene` that its measurements depend on, beside the method."""
+    camera, disk = scene.camera, scene.disk
+    view = camera.distance, camera.inclination_deg, camera.fov_deg, camera.field_m, camera.observer
+    return scene.hole.spin, *view, disk.enabled, disk.inner_radius, disk.outer_radius, disk.orbit
 
 
 def is_charted(scene: Scene) -> bool:

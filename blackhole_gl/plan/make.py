@@ -49,7 +49,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     Raises:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
-    scene, why_other = _meeting_things(scene)
+    scene, why_other = _meeting_things(met.with_thickness(scene))
     chosen = choice.choose(scene, sky_alone=not keep_crossings)
     scene, reasons = chosen.scene, list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",))
     reasons += why_other

@@ -52,6 +52,13 @@ def without_any(scene: Scene) -> Scene:
     return scene if is_empty(scene) else replace(scene, things=FrozenMap(), media=FrozenMap())
 
 
+def with_thickness(scene: Scene) -> Scene:
+    """`scene` with the thickness of its disks with depth stated: where an instance has none of its own, it is ``disk.thickness``."""
+    parameters = {kind.key: kind.traits.thickness for kind in kinds(scene, "medium") if kind.traits.thickness}
+    open_ones = [(name, parameters[one.kind]) for name, one in scene.media.items() if one.kind in parameters and not one.values[parameters[one.kind]]]
+    return scene.with_values({f"media.{name}.{parameter}": scene.disk.thickness for name, parameter in open_ones}) if open_ones else scene
+
+
 def extent(instance: Instance, traits: MetTraits) -> float:
     """Distance in r_s from the centre of `instance`, whose kind has `traits`, beyond which no part of it lies."""
     return sum(abs(number_of(instance.values[name])) for name in traits.reach)

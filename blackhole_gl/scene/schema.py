@@ -51,7 +51,6 @@ class Field:
         options: the allowed words of a choice.
         physical: the value at which the scene is physics and not art; None where both are.
         art: whether it is the picture maker's to choose, for no physics names a value.
-        idle: whether it moves nothing in this version, and is only kept for files that name it.
         allow_infinity: whether ``inf`` is allowed beyond `high`.
         suffixes: what a file's name may end in, e.g. ``.png``.
         element: what each entry of a list of values is.
@@ -72,7 +71,6 @@ class Field:
     element: Field | None = None
     columns: tuple[Field, ...] = ()
     art: bool = False
-    idle: bool = False
 
     @property
     def glsl_name(self) -> str:

@@ -22,11 +22,10 @@ def number(
     physical: float | None = None,
     allow_infinity: bool = False,
     art: bool = False,
-    idle: bool = False,
 ):
     """A record field that holds a number in the closed range low…high."""
     kind = "int" if isinstance(default, int) else "float"
-    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity, art=art, idle=idle)
+    facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity, art=art)
     return field(default=default, metadata=facts)
 
 
@@ -157,7 +156,10 @@ class Disk:
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
     outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
-    thickness: float = number(0.5, 0.01, 2.0, "r_s", "Has no bearing: the disk is thin. A medium of the kind slab has depth.", idle=True)
+    thickness: float = number(
+        0.5, 0.01, 2.0, "r_s",
+        "Half the thickness of disks with depth, media of the kind slab, where they state none of their own; the disk itself is thin.",
+    )
     tilt_deg: float = number(
         0.0, 0.0, 90.0, "°",
         "Tilt of the disk's rigid plane out of the equator. Kinematic: its matter goes round in that plane at the rate of a circular orbit; round a spinning "

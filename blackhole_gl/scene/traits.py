@@ -163,11 +163,13 @@ class MediumTraits(MetTraits):
         bolometric: whether its light is that of all frequencies; else of the one that is seen.
         changes: whether its light changes with time on a ray that stays the same.
         phenomenological: whether it is made for its looks and solves no equations of matter; its parameters are then told as art.
+        thickness: of a disk with depth, the parameter that is half its thickness; an instance's 0 stands for ``disk.thickness``. Empty for others.
     """
 
     bolometric: bool = True
     changes: bool = False
     phenomenological: bool = False
+    thickness: str = ""
 
 
 @dataclass(frozen=True)

@@ -70,8 +70,13 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
     State there = march_step(orbit, a, h * t);
     vec2 height = plane_height(orbit, there);
 #if DISK_TILTED
-    for (int i = 0; i < 3; ++i) {  // where the frame is dragged, the height above a tilted plane is no cubic
-        t = clamp(t - height.x / (h * height.y), 0.5 * t, 0.5 * (t + 1.0));
+    // Where the frame is dragged, the height above a tilted plane is no cubic: Newton's method, or halving where that leaves what holds the crossing.
+    float low = 0.0, high = 1.0, side = is_below(orbit, a) ? -1.0 : 1.0;
+    for (int i = 0; i < 6; ++i) {
+        if (side * height.x > 0.0) low = t;
+        else high = t;
+        float next = t - height.x / (h * height.y);
+        t = next >= low && next <= high ? next : 0.5 * (low + high);
         there = march_step(orbit, a, h * t);
         height = plane_height(orbit, there);
     }
@@ -160,14 +165,17 @@ March march_start(Orbit orbit, State first) {
 }
 
 #if DISK_TILTED
-const float MOST_TURN = 0.7;  // radians about the hole in a step, so that no two crossings of the plane lie in one
+// Radians about the hole in a step, so that no two crossings of the plane lie in one; and of them those of a twist, whose quadrature says where a tilted plane is
+// crossed, while in a level one it turns the crossing alone.
+const float MOST_TURN = 0.7, MOST_TWIST = 0.3;
 const float LEAST_PART = 1.0 / 16.0;  // of a step: at the horizon the turn has no end, and no light comes back
 
 // A step of `h`, or a shorter one where a spinning hole turns the ray about its axis faster than it bends.
 float step_within_turn(Orbit orbit, State s, float h) {
     Path path = ray_path(orbit, s);
     vec3 n = path.place.xyz, rate = path.rate.xyz + path.twist.y * vec3(-n.y, n.x, 0.0);
-    return h * clamp(MOST_TURN * dot(n, n) / max(abs(h) * length(cross(n, rate)), 1e-20), LEAST_PART, 1.0);
+    float turn = length(cross(n, rate)) / dot(n, n);
+    return h * clamp(MOST_TURN / max(abs(h) * turn, 1e-20), LEAST_PART, 1.0);
 }
 #endif
 
@@ -197,6 +205,26 @@ void march_once(Orbit orbit, inout March m) {
     m.fate = ray_fate(orbit, m.next);
 }
 
+#if DISK_TILTED && ORDERS > 0
+void shorten(Orbit orbit, float part, inout March m) {
+    m.h *= part;
+    m.next = march_step(orbit, m.s, m.h);
+    m.fate = ray_fate(orbit, m.next);
+}
+
+// Takes a shorter last step where the twist has grown too fast in it; and ends it where the ray comes nearest to the plane, if it may have been beyond it there and is
+// back on the side that it came from: light that is dragged about the axis may cross a tilted plane and turn.
+void keep_to_plane(Orbit orbit, inout March m) {
+    float turned = abs(ray_path(orbit, m.next).twist.x - ray_path(orbit, m.s).twist.x);
+    if (!(turned <= MOST_TWIST)) shorten(orbit, turned < 1e6 ? max(MOST_TWIST / turned, LEAST_PART) : LEAST_PART, m);
+    vec2 before = plane_height(orbit, m.s), after = plane_height(orbit, m.next);
+    float side = is_below(orbit, m.s) ? -1.0 : 1.0, t = before.y / (before.y - after.y);
+    bool returns = side * after.x > 0.0 && side * before.y < 0.0 && side * after.y > 0.0;
+    float nearest = dot(hermite_weights(t), vec4(before.x, m.h * before.y, after.x, m.h * after.y));
+    if (returns && side * nearest < 0.5 * min(abs(before.x), abs(after.x))) shorten(orbit, t, m);
+}
+#endif
+
 // Steps until the ray ends or, where `seeks`, has crossed the disk's plane. It only steps: every branch of a loop's body runs (docs/llvmpipe.md) in
 // every round, so what happens once a ray or once a crossing stands outside it.
 void march_on(Orbit orbit, bool seeks, inout March m) {
@@ -207,6 +235,9 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 #endif
         march_once(orbit, m);
 #if ORDERS > 0
+#if DISK_TILTED
+        if (seeks) keep_to_plane(orbit, m);
+#endif
         m.crossed = seeks && is_below(orbit, m.next) != is_below(orbit, m.s);
 #endif
 #if MEETINGS

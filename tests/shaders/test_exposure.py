@@ -141,7 +141,7 @@ def test_a_window_s_exposure_follows_and_a_still_s_does_not(renderer: Renderer, 
 
 def test_looks_and_scenes_that_were_published_keep_their_exposure() -> None:
     mode = {info.name: presets.read(info.name).values.get("post.exposure_mode") for info in presets.available() if info.path.is_relative_to(presets_dir())}
-    own = {"schwarzschild", "orbiting_star", "jet", "kerr_06", "kerr", "kerr_0998_85", "m87_like"}
+    own = {"plunging_matter", "hot_spot", "tilted_disk", "schwarzschild", "orbiting_star", "jet", "kerr_06", "kerr", "kerr_0998_85", "m87_like"}
     assert {name for name, said in mode.items() if said == "automatic"} == own
     measured = {f"gold_{number}" for number in range(1, 6)}  # whose radiance is a flux
     assert {name for name, said in mode.items() if said == "fixed"} == {"default_look", "particle_storm", "minimal_bloom", *measured}

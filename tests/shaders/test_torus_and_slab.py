@@ -225,3 +225,26 @@ def test_noise_in_space_has_the_deviation_of_that_on_a_sheet_and_no_steps(ctx, t
     # From tetrahedron to tetrahedron: a step of 1/500 changes it by no more than its steepest slope does, 7 or so.
     fine = piece.set(**{"from": (-2.3, 1.7, -0.4), "right": (0.002, 0.0, 0.0), "up": (0.0, 0.0013, 0.0015)}).draw((512, 512))[..., 0]
     assert max(np.abs(np.diff(fine, axis=axis)).max() for axis in (0, 1)) < 0.02
+
+
+def test_a_slab_is_as_thick_as_the_disk_says_unless_it_says_itself(renderer: Renderer) -> None:
+    def picture(**changes: float) -> np.ndarray:
+        renderer.render(presets.load(["kerr"], {**SLAB, **{key.replace("__", "."): value for key, value in changes.items()}}), 0.0, SIZE)
+        return renderer.radiance()
+
+    own = picture(media__slab__height=0.3, disk__thickness=1.0)
+    np.testing.assert_array_equal(picture(media__slab__height=0.0, disk__thickness=0.3), own)
+
+
+def test_lanes_in_a_slab_change_its_picture_keep_its_light_and_are_nothing_at_0(renderer: Renderer) -> None:
+    """Through a thin one, where light goes as density, whose mean lanes leave alone; from near by, as what is finer than a pixel is left out."""
+    seen = {**SLAB, "media.slab.height": 0.2, "media.slab.depth": 0.05, "camera.inclination_deg": 40.0, "camera.distance": 20.0, "camera.fov_deg": 16.0}
+
+    def picture(lanes: float) -> np.ndarray:
+        renderer.render(presets.load(["kerr"], {**seen, "media.slab.lanes": lanes}), 8.0, SIZE)
+        return renderer.radiance() @ LUMINANCE
+
+    smooth, laned = picture(0.0), picture(2.0)
+    changed = np.abs(laned / smooth - 1.0)[smooth > 0.02 * smooth.max()]
+    assert np.quantile(changed, 0.9) > 0.1
+    assert abs(laned.sum() / smooth.sum() - 1.0) < 0.1  # a few lanes are in the picture, and no whole number of them
