@@ -26,6 +26,9 @@
 #include "common/curve.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/matter.glsl"
+#if MEDIA_ALONE
+#define ROWS_HELD  // a parameter is a texel, and asked for in every step
+#endif
 #instances
 #slots thing
 #slots medium
@@ -53,11 +56,12 @@ layout(location = 6) out vec4 gathered3;
 layout(location = 7) out vec4 passed3;
 #endif
 
-const int MOST_STEPS_ON = 1024;
+const int MOST_STEPS_ON = 1024, MOST_VISITS = 256, MOST_TRIES = 24;
 const float LEAST_PASSED = 1.0 / 512.0;
 const float MOST_DEPTH = 0.5;          // of a piece, as its ends see it
 const float FINE_SHARE = 1e-3;         // of a medium's scale: how exactly its surface is found
 const float HORIZON_MARGIN = 2e-5;     // of its radius: where rays end that fall in
+const float NEAR_HORIZON = 1.05, FREE_FALL = 0.1;  // and where they end farther out: in times of its radius, with nothing so near, in times of theirs. They turn without end
 
 // A place on the ray.
 struct Here {
@@ -123,6 +127,84 @@ Light after_piece(Light light, vec3 gains, vec3 loses, float way) {
     return Light(light.gathered + light.passed * share * gains * way, light.passed * exp(-depth));
 }
 
+// Where a state of the march is.
+vec3 place_of(Orbit orbit, State s) {
+    return path_point(ray_path(orbit, s));
+}
+
+// Signed distance of the nearest medium, and how exactly surfaces there are to be found, r_s.
+vec2 room_at(vec3 x) {
+    vec2 room = vec2(1e30);
+#each medium : for (int i = 0; i < medium_$key_count; ++i) room = min(room, vec2(medium_$key_distance(i, x), FINE_SHARE * medium_$key_scale(i, x)));
+    return room;
+}
+
+void look_within(inout int within, inout int bit, inout float edge, float off) {
+    within ^= off < 0.0 ? bit : 0;
+    edge = min(edge, abs(off));
+    bit = bit >= (1 << 30) ? 1 : 2 * bit;
+}
+
+// Which media x is in, as Here tells it, and how far the nearest surface is.
+int within_at(vec3 x, out float edge) {
+    int within = 0, bit = 1;
+    edge = 1e30;
+#each medium : for (int i = 0; i < medium_$key_count; ++i) look_within(within, bit, edge, medium_$key_distance(i, x));
+    return within;
+}
+
+// Whether a ray has nothing before it any more: it has left all for good, come to its `end` or to the horizon.
+bool is_over(Orbit orbit, State s, Here here, vec3 end) {
+    float r = length(here.x);
+    bool gone = !is_finite(here.x) || ray_fate(orbit, s) == ESCAPED || r > meeting_reach && dot(here.x, here.towards) < 0.0;
+    return gone || distance(here.x, end) <= here.fine || r < (1.0 + HORIZON_MARGIN) * inner_radius();
+}
+
+#if ORDERS > 0
+// Whether a piece whose ends are so high above the disk's plane, the second at y, crosses it where crossings count.
+bool crosses_plane(vec2 heights, vec3 y) {
+    return (heights.x < 0.0) != (heights.y < 0.0) && length(y) > crossing_r_min;
+}
+#endif
+
+// On through empty space, to where the next step, no longer than it is to the nearest medium, leads into one, or to where the ray is over. Steps go farther than that
+// where what is known at both ends says that nothing lies between (Keinert et al. 2014): most of all where the ray goes away from what is nearest.
+void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int stretch, inout bool over) {
+    bool outside = here.within == 0;
+    float farther = 0.0;
+    for (int i = 0; i < MOST_STEPS_ON; ++i) {
+        if (!outside || over) break;
+        float close = here.edge + here.fine;
+        float most = min(plan_medium_step * length(here.x), max(distance(here.x, end), here.fine));
+        here.step = min(close, most);
+        float h = min(min(max(farther, close), most) / here.speed, ray_plain_step(orbit, s));
+        State next = march_step(orbit, s, h);
+        Path path = ray_path(orbit, next);
+        vec3 x = path_point(path), velocity = path_velocity(path);
+        vec2 room = room_at(x);
+        float chord = distance(x, here.x);
+        bool unsure = farther > close && here.edge + room.x < 1.05 * chord;
+        outside = unsure || room.x >= 0.0;
+        farther = unsure ? 0.0 : 1.8 * room.x / max(1.0 - (room.x - here.edge) / max(chord, 1e-20), 0.1);
+        if (outside && !unsure) {
+#if ORDERS > 0
+            stretch = crosses_plane(vec2(disk_height(here.x), disk_height(x)), x) ? min(stretch + 1, ORDERS) : stretch;
+#endif
+#ifdef RAY_RECHARTS
+            next = ray_recharted(s, next);
+#endif
+            s = next;
+            here.x = x;
+            here.speed = length(velocity);
+            here.towards = -velocity / here.speed;
+            here.edge = room.x;
+            here.fine = room.y;
+            bool sinks = ray_fate(orbit, s) == CAPTURED && length(x) < NEAR_HORIZON * inner_radius() && room.x > FREE_FALL * length(x);
+            over = sinks || is_over(orbit, s, here, end);
+        }
+    }
+}
+
 RayStart start_at(Meeting met, float energy) {
     float r = length(met.place);
     RayStart ray;
@@ -138,7 +220,34 @@ RayStart start_at(Meeting met, float energy) {
     return ray;
 }
 
+// A surface ahead: clear up to it, and the little that it lies in, in the parameter of the march. `within` 0: none is known of.
+struct Surface {
+    float clear, within;
+};
+
+// The first surface on the next step, if there is one: false position.
+Surface surface_ahead(Orbit orbit, State s, Here here) {
+    float fine = here.fine / here.speed, high = min(here.step / here.speed, ray_plain_step(orbit, s)), t = high;
+    float clear = 0.0, before = here.edge, after = 0.0;
+    for (int k = 0; k < MOST_TRIES; ++k) {
+        float edge;
+        State middle = march_step(orbit, s, 0.5 * t), next = march_step(orbit, middle, 0.5 * t);  // as light is gathered
+        bool same = within_at(place_of(orbit, next), edge) == here.within;
+        clear = same ? t : clear;
+        before = same ? edge : before;
+        high = same ? high : t;
+        after = same ? after : edge;
+        float root = mix(clear, high, before / max(before + after, 1e-20)), room = 0.02 * (high - clear);
+        t = clamp(root - clear > fine ? root - 0.4 * fine : root + 0.4 * fine, clear + room, high - room);
+        if (high - clear <= fine) break;
+    }
+    return Surface(clear, high - clear);
+}
+
 void main() {
+#if MEDIA_ALONE
+    read_rows();
+#endif
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     vec3 local = pixel_direction(picture_place(gl_FragCoord.xy));
     Meeting met = hits.meeting[0];
@@ -160,55 +269,56 @@ void main() {
     Orbit orbit = ray_orbit(start);
     State s = ray_init(start, orbit, hits);
     Here here = here_at(orbit, s, first, end, left);
-    float changes_in = 0.0, edge_there = 0.0;  // where in front of it other media are known to be, in the parameter of the march; 0: nowhere
-    int pieces = 0;  // tried ones too; kept as the first alpha, for tests and charts
-    for (int i = 0; i < MOST_STEPS_ON; ++i) {
-        if (!any) break;
-        ++pieces;
-        float h = min(here.step / here.speed, ray_plain_step(orbit, s)), fine = here.fine / here.speed;
-        if (changes_in > 0.0) h = min(h, changes_in <= fine ? changes_in : changes_in * clamp(here.edge / max(here.edge + edge_there, 1e-20), 0.02, 0.98));
-        State middle = march_step(orbit, s, 0.5 * h), next = march_step(orbit, middle, 0.5 * h);
-        Here there = here_at(orbit, next, first, end, left);
-        bool changes = there.within != here.within;
-        if (changes && h > fine) {
-            changes_in = h;
-            edge_there = there.edge;
-            continue;
-        }
-        changes_in = changes ? 0.0 : max(changes_in - h, 0.0);
-
-        Here between = here_at(orbit, middle, first, end, left);
-        float r = length(there.x);
-        if (r < (1.0 + HORIZON_MARGIN) * inner_radius() || !is_finite(between.gains + between.loses) || !is_finite(there.gains + there.loses)) break;  // there a place may have no rate
-        float share = here.edge / max(here.edge + there.edge, 1e-20);  // of a piece with a surface in it that is as it begins
-        vec3 gains = changes ? mix(there.gains, here.gains, share) : (here.gains + 4.0 * between.gains + there.gains) * (1.0 / 6.0);
-        vec3 loses = changes ? mix(there.loses, here.loses, share) : (here.loses + 4.0 * between.loses + there.loses) * (1.0 / 6.0);
-        // What comes from deeper in is dimmed by more than the mean: the next term of the piece's light (Magnus), of the same order as Simpson's rule.
-        if (!changes) gains = max(gains + h / 12.0 * (here.gains * there.loses - there.gains * here.loses), 0.0);
-        float crossed = 1.0;
+    bool over = !any;
+    int pieces = 0;  // of which light has been gathered; kept as the first alpha, for tests and charts
+    for (int i = 0; i < MOST_VISITS; ++i) {
+        cross_gap(orbit, s, here, end, stretch, over);
+        if (over) break;
+        Surface ahead = surface_ahead(orbit, s, here);
+        while (pieces < MOST_STEPS_ON) {
+            // Up to a surface, then the little that it lies in.
+            bool across = ahead.within > 0.0 && ahead.clear <= 0.0;
+            float h = min(here.step / here.speed, ray_plain_step(orbit, s));
+            if (ahead.within > 0.0) h = across ? ahead.within : min(h, ahead.clear);
+            State middle = march_step(orbit, s, 0.5 * h), next = march_step(orbit, middle, 0.5 * h);
+            Here between = here_at(orbit, middle, first, end, left), there = here_at(orbit, next, first, end, left);
+            bool lost = !is_finite(between.gains + between.loses) || !is_finite(there.gains + there.loses);  // there a place may have no rate
+            if (lost || ahead.within == 0.0 && there.within != here.within) {  // or a surface that is still to be found
+                over = lost;
+                break;
+            }
+            ++pieces;
+            float share = here.edge / max(here.edge + there.edge, 1e-20);  // of a piece with a surface in it that is as it begins
+            vec3 gains = across ? mix(there.gains, here.gains, share) : (here.gains + 4.0 * between.gains + there.gains) * (1.0 / 6.0);
+            vec3 loses = across ? mix(there.loses, here.loses, share) : (here.loses + 4.0 * between.loses + there.loses) * (1.0 / 6.0);
+            // What comes from deeper in is dimmed by more than the mean: the next term of the piece's light (Magnus), of the same order as Simpson's rule.
+            if (!across) gains = max(gains + h / 12.0 * (here.gains * there.loses - there.gains * here.loses), 0.0);
+            float crossed = 1.0;
 #if ORDERS > 0
-        vec2 heights = vec2(disk_height(here.x), disk_height(there.x));
-        bool crosses = (heights.x < 0.0) != (heights.y < 0.0) && length(there.x) > crossing_r_min;
-        if (crosses) crossed = abs(heights.x) / max(abs(heights.x) + abs(heights.y), 1e-20);
+            vec2 heights = vec2(disk_height(here.x), disk_height(there.x));
+            bool crosses = crosses_plane(heights, there.x);
+            if (crosses) crossed = abs(heights.x) / max(abs(heights.x) + abs(heights.y), 1e-20);
 #endif
-        for (int n = 0; n <= ORDERS; ++n)
-            if (n == stretch) light[n] = after_piece(light[n], gains, loses, crossed * h);
-#if ORDERS > 0
-        if (crosses) {
-            stretch = min(stretch + 1, ORDERS);
             for (int n = 0; n <= ORDERS; ++n)
-                if (n == stretch) light[n] = after_piece(light[n], gains, loses, (1.0 - crossed) * h);
-        }
+                if (n == stretch) light[n] = after_piece(light[n], gains, loses, crossed * h);
+#if ORDERS > 0
+            if (crosses) {
+                stretch = min(stretch + 1, ORDERS);
+                for (int n = 0; n <= ORDERS; ++n)
+                    if (n == stretch) light[n] = after_piece(light[n], gains, loses, (1.0 - crossed) * h);
+            }
 #endif
-        left *= exp(-loses * h);
-        bool ended = all(lessThan(left, vec3(LEAST_PASSED))) || ray_fate(orbit, next) == ESCAPED;
-        ended = ended || r > meeting_reach && dot(there.x, there.towards) < 0.0 || distance(there.x, end) <= there.fine;
+            left *= exp(-loses * h);
+            over = all(lessThan(left, vec3(LEAST_PASSED))) || is_over(orbit, next, there, end);
+            ahead = across ? Surface(0.0, 0.0) : Surface(ahead.clear - h, ahead.within);
 #ifdef RAY_RECHARTS
-        next = ray_recharted(s, next);
+            next = ray_recharted(s, next);
 #endif
-        s = next;
-        here = there;
-        if (ended) break;
+            s = next;
+            here = there;
+            if (over || here.within == 0 && ahead.within == 0.0) break;
+        }
+        if (over || pieces >= MOST_STEPS_ON) break;
     }
     gathered0 = vec4(light[0].gathered, float(pieces));
     passed0 = vec4(light[0].passed, 1.0);

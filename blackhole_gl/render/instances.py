@@ -6,7 +6,7 @@ longer: neither compiles anything.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -31,7 +31,7 @@ _MOTION = ("bound", "velocity", "spin", "attitude")
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
     """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind; the
-    array of pictures, if any kind has one."""
+    array of pictures, if any kind has one. With ``ROWS_HELD`` each kind of medium has one instance, whose row ``read_rows()`` reads once for all."""
     kinds = list(kinds)
     lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
     if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):
@@ -41,17 +41,41 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
     lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
-        lines += [f"uniform sampler2D {name}_table;", f"#define {name}_count textureSize({name}_table, 0).y"]
-        motion_names = _motion_names(kind)
-        lines += [f"#define {name}_{word}(i) texelFetch({name}_table, ivec2({place}, i), 0)" for place, word in enumerate(motion_names)]
-        lines.append(f"#define {name}_centre(i) {name}_bound(i).xyz")
-        for item, place in _places(kind)[0]:
-            value = f"texelFetch({name}_table, ivec2({place // 4}, i), 0).{'xyzw'[place % 4 : place % 4 + _width(item)]}"
-            read = {"float": value, "list": value, "switch": f"({value} > 0.5)"}.get(item.kind, f"int({value})")
-            lines.append(f"#define {name}_{item.key}(i) {read}")
-        if _has_surface(kind):
-            lines.append(f"#define {name}_finish(i) Finish({', '.join(f'{name}_{key}(i)' for key in surfaces.SURFACE)})")
-    return "\n".join(lines)
+        fetched = [f"#define {name}_count textureSize({name}_table, 0).y", *_accessors(kind, lambda place, name=name: _fetch(name, place, "i"))]
+        lines += [f"uniform sampler2D {name}_table;", *(_held_or(kind, fetched) if kind.slot == "medium" else fetched)]
+    media = [line for kind in kinds if kind.slot == "medium" for line in _reads(kind)]
+    return "\n".join([*lines, *(["#ifdef ROWS_HELD", "void read_rows() {", *media, "}", "#endif"] if media else [])])
+
+
+def _fetch(name: str, place: int, row: str) -> str:
+    return f"texelFetch({name}_table, ivec2({place}, {row}), 0)"
+
+
+def _held_or(kind: PlugIn, fetched: list[str]) -> list[str]:
+    """What reads the one instance of a kind in variables, where a program says so, and what is `fetched` else."""
+    name = f"{kind.slot}_{kind.key}"
+    variables = ", ".join(f"{name}_row{place}" for place in range(_places(kind)[1] // 4))
+    held = [f"vec4 {variables};", f"#define {name}_count 1", *_accessors(kind, lambda place: f"{name}_row{place}")]
+    return ["#ifdef ROWS_HELD", *held, "#else", *fetched, "#endif"]
+
+
+def _reads(kind: PlugIn) -> list[str]:
+    name = f"{kind.slot}_{kind.key}"
+    return [f"    {name}_row{place} = {_fetch(name, place, '0')};" for place in range(_places(kind)[1] // 4)]
+
+
+def _accessors(kind: PlugIn, texel: Callable[[int], str]) -> list[str]:
+    """What reads an instance's motion and parameters by their names, from the texels of its row."""
+    name = f"{kind.slot}_{kind.key}"
+    lines = [f"#define {name}_{word}(i) {texel(place)}" for place, word in enumerate(_motion_names(kind))]
+    lines.append(f"#define {name}_centre(i) {name}_bound(i).xyz")
+    for item, place in _places(kind)[0]:
+        value = f"{texel(place // 4)}.{'xyzw'[place % 4 : place % 4 + _width(item)]}"
+        read = {"float": value, "list": value, "switch": f"({value} > 0.5)"}.get(item.kind, f"int({value})")
+        lines.append(f"#define {name}_{item.key}(i) {read}")
+    if _has_surface(kind):
+        lines.append(f"#define {name}_finish(i) Finish({', '.join(f'{name}_{key}(i)' for key in surfaces.SURFACE)})")
+    return lines
 
 
 def _finish() -> list[str]:

@@ -13,7 +13,7 @@ from ..glsl.blocks import Block
 from ..glsl.declared import defines
 from ..physics import accretion, observer, plunging, shear, tilted_disk
 from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
-from ..scene import Scene, catalogue, fields
+from ..scene import Scene, catalogue, fields, met
 from ..scene.tables import Number
 from . import instances, pictures
 
@@ -185,6 +185,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0, "CELLS_FILLED": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
     found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0)}
+    found |= {"MEDIA_ALONE": int(len(plan.scene.media) == len(met.kinds(plan.scene, "medium")))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}

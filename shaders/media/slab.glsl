@@ -69,20 +69,19 @@ float slab_lanes(vec3 x, float share, float turned, float age, float width, floa
 // Density of the clouds of one pattern, mean 1, turned by `turned` radians; what is finer than `width` is not there.
 float slab_clouds(Clouds clouds, vec3 x, float turned, float width, uint seed) {
     vec2 turn = cos_sin(-turned);
-    vec3 forwards = vec3(rotate(x.xy, turn), x.z), backwards = vec3(rotate(x.xy, vec2(turn.x, -turn.y)), x.z);
-    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned)), octave = 1.0;
-    if (clouds.octaves > 0) do {
-        float frequency = octave * octave * clouds.first, kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
-        density *= max(1.0 + clouds.contrast * kept * solid_noise(frequency * forwards, seed + uint(octave)), 0.0);
+    vec3 onwards = vec3(rotate(x.xy, turn), x.z), forwards = onwards, backwards = vec3(rotate(x.xy, vec2(turn.x, -turn.y)), x.z);
+    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned)), octave = 1.0, octaves = float(clouds.octaves);
+    float rounds = octaves + (clouds.grain > 0.0 ? 1.0 : 0.0);  // the grain is one more: a branch of its own would run always (docs/llvmpipe.md)
+    if (rounds > 0.0) do {
+        bool grains = octave > octaves;
+        float frequency = clouds.first * (grains ? GRAIN_FREQUENCY : octave * octave), kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
+        float contrast = grains ? 0.15 * clouds.grain : clouds.contrast;
+        density *= max(1.0 + contrast * kept * solid_noise(frequency * (grains ? onwards : forwards), seed + (grains ? 13u : uint(octave))), 0.0);
         vec3 swapped = forwards;
         forwards = backwards;
         backwards = swapped;
         octave += 1.0;
-    } while (octave <= float(clouds.octaves));
-    if (clouds.grain > 0.0) {
-        float fine = GRAIN_FREQUENCY * clouds.first, kept = clamp(1.6 - 2.0 * fine * wound, 0.0, 1.0);
-        density *= 1.0 + 0.15 * clouds.grain * kept * solid_noise(fine * vec3(rotate(x.xy, turn), x.z), seed + 13u);
-    }
+    } while (octave <= rounds);
     return density;
 }
 
