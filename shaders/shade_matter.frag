@@ -125,6 +125,9 @@ Light meeting_light(Hits hits, int k, Sight sight) {
 Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
     for (int before = first; before <= min(last, ORDERS); ++before) {
         Light stretch = stretch_light(ivec2(gl_FragCoord.xy), before);
+#if THINGS == 0
+        light = behind(light, stretch);  // what is met need not be read
+#else
         bool within = false;  // a medium, from the last crossing on
         for (int k = 0; k < MEETINGS; ++k) within = within || is_medium(hits.meeting[k].kind) && hits.meeting[k].before < before;
         if (within) light = behind(light, stretch);
@@ -132,6 +135,7 @@ Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int 
             Meeting met = hits.meeting[k];
             if (met.kind >= 0 && met.before == before) light = behind(light, is_medium(met.kind) ? stretch : own[k]);
         }
+#endif
     }
     return light;
 }

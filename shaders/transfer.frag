@@ -26,9 +26,6 @@
 #include "common/curve.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/matter.glsl"
-#if MEDIA_ALONE
-#define ROWS_HELD  // a parameter is a texel, and asked for in every step
-#endif
 #instances
 #slots thing
 #slots medium
@@ -245,8 +242,8 @@ Surface surface_ahead(Orbit orbit, State s, Here here) {
 }
 
 void main() {
-#if MEDIA_ALONE
-    read_rows();
+#if ROWS_HELD
+    read_rows();  // a parameter is a texel, and asked for in every step
 #endif
     Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
     vec3 local = pixel_direction(picture_place(gl_FragCoord.xy));

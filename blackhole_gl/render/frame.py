@@ -13,7 +13,7 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, instance_numbers, instances, pixel_values, supersampling, views
+from . import diagnostics, instance_numbers, instances, kept_light, pixel_values, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -77,6 +77,7 @@ class Renderer:
         edges: the pixels of the last picture that have several rays.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
         exposure: what makes automatic exposure up.
+        shadings: how many times a hit map has been shaded, for tests.
     """
 
     def __init__(self, ctx: moderngl.Context):
@@ -95,7 +96,9 @@ class Renderer:
         self._post = PostPass(ctx, self.programs)
         self._stars = StarLayer(ctx)
         self._last: FrameInputs | None = None
+        self.shadings = 0
         self._radiance: Target | None = None
+        self._radiance_key: tuple | None = None  # where its light stands
         self._picture: Target | None = None
 
     def render(
@@ -136,7 +139,7 @@ class Renderer:
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
-        radiance = self._shaded_with_edges(inputs, moving=progressive or thing_moved)
+        radiance = self._kept_or_shaded(inputs, moving=progressive or thing_moved)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -337,8 +340,21 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
+    def _kept_or_shaded(self, inputs: FrameInputs, *, moving: bool) -> Target:
+        """`_shaded_with_edges` of the own hit map, unless that is what the radiance holds."""
+        made = self._light_key(inputs, moving)
+        if self._radiance is None or made is None or made != self._radiance_key:
+            self._shaded_with_edges(inputs, moving=moving)
+            self._radiance_key = self._light_key(inputs, moving)  # programs may have been compiled
+        return _drawn(self._radiance)
+
+    def _light_key(self, inputs: FrameInputs, moving: bool) -> tuple | None:
+        return kept_light.key(inputs, self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, self._tables.pictures.made)
+
     def _shaded(self, inputs: FrameInputs, hit_map: HitMap) -> Target:
         """The radiance that the hits of `hit_map` have in the scene."""
+        self._radiance_key = None
+        self.shadings += 1
         if self._radiance is None or self._radiance.size != inputs.size:
             self._radiance = self._fresh(self._radiance, inputs.size, 4, "f2")
         if diagnostics.is_on(inputs.plan.scene):

@@ -31,9 +31,10 @@ _MOTION = ("bound", "velocity", "spin", "attitude")
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
     """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind; the
-    array of pictures, if any kind has one. With ``ROWS_HELD`` each kind of medium has one instance, whose row ``read_rows()`` reads once for all."""
+    array of pictures, if any kind has one. With the switch ``ROWS_HELD`` each kind of medium has one instance, whose row ``read_rows()`` reads once for all."""
     kinds = list(kinds)
     lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
+    lines += ["#ifndef ROWS_HELD", "#define ROWS_HELD 0", "#endif"]
     if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):
         lines.append(f"uniform sampler2DArray {pictures.ARRAY};")
     if any(meshes.is_mesh(item) for kind in kinds for item in kind.parameters.values()):
@@ -44,7 +45,7 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
         fetched = [f"#define {name}_count textureSize({name}_table, 0).y", *_accessors(kind, lambda place, name=name: _fetch(name, place, "i"))]
         lines += [f"uniform sampler2D {name}_table;", *(_held_or(kind, fetched) if kind.slot == "medium" else fetched)]
     media = [line for kind in kinds if kind.slot == "medium" for line in _reads(kind)]
-    return "\n".join([*lines, *(["#ifdef ROWS_HELD", "void read_rows() {", *media, "}", "#endif"] if media else [])])
+    return "\n".join([*lines, *(["#if ROWS_HELD", "void read_rows() {", *media, "}", "#endif"] if media else [])])
 
 
 def _fetch(name: str, place: int, row: str) -> str:
@@ -56,7 +57,7 @@ def _held_or(kind: PlugIn, fetched: list[str]) -> list[str]:
     name = f"{kind.slot}_{kind.key}"
     variables = ", ".join(f"{name}_row{place}" for place in range(_places(kind)[1] // 4))
     held = [f"vec4 {variables};", f"#define {name}_count 1", *_accessors(kind, lambda place: f"{name}_row{place}")]
-    return ["#ifdef ROWS_HELD", *held, "#else", *fetched, "#endif"]
+    return ["#if ROWS_HELD", *held, "#else", *fetched, "#endif"]
 
 
 def _reads(kind: PlugIn) -> list[str]:

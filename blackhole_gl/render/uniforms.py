@@ -184,8 +184,8 @@ def switches(plan: Plan) -> dict[str, int]:
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0, "CELLS_FILLED": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
-    found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0)}
-    found |= {"MEDIA_ALONE": int(len(plan.scene.media) == len(met.kinds(plan.scene, "medium")))}
+    found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0), "THINGS": int(bool(plan.scene.things))}
+    found |= {"ROWS_HELD": int(len(plan.scene.media) == len(met.kinds(plan.scene, "medium")))}
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}

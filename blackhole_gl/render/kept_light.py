@@ -1,0 +1,21 @@
+"""Whether a picture's light is another at another time: where it is not, what was shaded once stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..plan import Plan
+from . import instances, transfer
+from .inputs import FrameInputs
+from .programs import chosen
+
+
+def stands(plan: Plan) -> bool:
+    """Whether time changes no light of a picture by `plan`: nothing turns, streams or moves in it. Views in false colours have scales that follow."""
+    patterns = plan.orders and chosen(plan, "disk_layer")
+    return plan.scene.post.view == "picture" and not patterns and not transfer.changes(plan) and not instances.anything_moves(plan)
+
+
+def key(inputs: FrameInputs, *rest: object) -> tuple | None:
+    """Of all that a picture's light depends on, with the `rest` that is not in its `inputs`; None where it has to be shaded anew at another time."""
+    return (replace(inputs, time=0.0), *rest) if stands(inputs.plan) else None
