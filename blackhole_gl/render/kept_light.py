@@ -13,7 +13,8 @@ from .programs import chosen
 def stands(plan: Plan) -> bool:
     """Whether time changes no light of a picture by `plan`: nothing turns, streams or moves in it. Views in false colours have scales that follow."""
     patterns = plan.orders and chosen(plan, "disk_layer")
-    return plan.scene.post.view == "picture" and not patterns and not transfer.changes(plan) and not instances.anything_moves(plan)
+    moves = patterns or transfer.changes(plan) or instances.anything_moves(plan) or any(kind.traits.changes for kind in chosen(plan, "sky"))
+    return plan.scene.post.view == "picture" and not moves
 
 
 def key(inputs: FrameInputs, *rest: object) -> tuple | None:
