@@ -6,7 +6,7 @@ longer: neither compiles anything.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -42,7 +42,7 @@ def glsl(kinds: Iterable[PlugIn]) -> str:
     lines += _finish() if any(_has_surface(kind) for kind in kinds) else []
     for kind in kinds:
         name = f"{kind.slot}_{kind.key}"
-        fetched = [f"#define {name}_count textureSize({name}_table, 0).y", *_accessors(kind, lambda place, name=name: _fetch(name, place, "i"))]
+        fetched = [f"#define {name}_count textureSize({name}_table, 0).y", *_accessors(kind, "")]
         lines += [f"uniform sampler2D {name}_table;", *(_held_or(kind, fetched) if kind.slot == "medium" else fetched)]
     media = [line for kind in kinds if kind.slot == "medium" for line in _reads(kind)]
     return "\n".join([*lines, *(["#if ROWS_HELD", "void read_rows() {", *media, "}", "#endif"] if media else [])])
@@ -56,7 +56,7 @@ def _held_or(kind: PlugIn, fetched: list[str]) -> list[str]:
     """What reads the one instance of a kind in variables, where a program says so, and what is `fetched` else."""
     name = f"{kind.slot}_{kind.key}"
     variables = ", ".join(f"{name}_row{place}" for place in range(_places(kind)[1] // 4))
-    held = [f"vec4 {variables};", f"#define {name}_count 1", *_accessors(kind, lambda place: f"{name}_row{place}")]
+    held = [f"vec4 {variables};", f"#define {name}_count 1", *_accessors(kind, f"{name}_row")]
     return ["#if ROWS_HELD", *held, "#else", *fetched, "#endif"]
 
 
@@ -65,9 +65,13 @@ def _reads(kind: PlugIn) -> list[str]:
     return [f"    {name}_row{place} = {_fetch(name, place, '0')};" for place in range(_places(kind)[1] // 4)]
 
 
-def _accessors(kind: PlugIn, texel: Callable[[int], str]) -> list[str]:
-    """What reads an instance's motion and parameters by their names, from the texels of its row."""
+def _accessors(kind: PlugIn, held: str) -> list[str]:
+    """What reads an instance's motion and parameters by their names: from its row in the table, or from the variables that begin with `held`, if any are."""
     name = f"{kind.slot}_{kind.key}"
+
+    def texel(place: int) -> str:
+        return f"{held}{place}" if held else _fetch(name, place, "i")
+
     lines = [f"#define {name}_{word}(i) {texel(place)}" for place, word in enumerate(_motion_names(kind))]
     lines.append(f"#define {name}_centre(i) {name}_bound(i).xyz")
     for item, place in _places(kind)[0]:
