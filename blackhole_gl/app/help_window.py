@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import hello_imgui, imgui
 
 from ..output.files import write_whole
-from . import theme
+from . import theme, tool_window
 from .keys import ACTIONS, Bindings, shown, template
 from .state import WindowState
 
@@ -40,21 +40,19 @@ def draw(state: WindowState, bindings: Bindings, key_file: Path) -> None:
     if not state.show_help:
         return
     em = hello_imgui.em_size()
-    centre = imgui.get_main_viewport().get_center()
-    imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
+    tool_window.appears_in_the_middle()
     screen = imgui.get_main_viewport().size
     width = min(_WIDTH_EM * em, 0.95 * screen.x)
     imgui.set_next_window_size_constraints((width, 0.0), (width, screen.y))
-    flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_saved_settings
-    visible, stays = imgui.begin("Help", True, flags.value)
-    state.show_help = bool(stays)
-    if visible:
-        _table("keys", [(shown(bindings[action.name]) or "no key", action.help) for action in ACTIONS])
-        imgui.separator()
-        _table("mouse", _MOUSE)
-        imgui.separator()
-        _file(state, key_file)
-    imgui.end()
+    state.show_help = tool_window.draw("Help", lambda: _contents(state, bindings, key_file), imgui.WindowFlags_.always_auto_resize)
+
+
+def _contents(state: WindowState, bindings: Bindings, key_file: Path) -> None:
+    _table("keys", [(shown(bindings[action.name]) or "no key", action.help) for action in ACTIONS])
+    imgui.separator()
+    _table("mouse", _MOUSE)
+    imgui.separator()
+    _file(state, key_file)
 
 
 def _table(name: str, rows: list[tuple[str, str]] | tuple[tuple[str, str], ...]) -> None:

@@ -12,7 +12,7 @@ from imgui_bundle import ImVec4, hello_imgui, imgui, implot
 from ..measure import line_profile
 from ..measure.line_profile import LineProfile
 from ..scene import Scene, SceneError
-from . import theme
+from . import theme, tool_window
 from .state import WindowState
 
 TITLE = "Line profile"
@@ -75,17 +75,12 @@ class LinePlot:
         """The plot's window, when it is wanted; its close button puts it away."""
         if not state.show_line:
             return
-        em = hello_imgui.em_size()
-        corner = imgui.get_main_viewport().pos
-        imgui.set_next_window_pos((corner.x + 2.0 * em, corner.y + 8.0 * em), imgui.Cond_.first_use_ever.value)
-        imgui.set_next_window_size((40.0 * em, 22.0 * em), imgui.Cond_.first_use_ever.value)
-        flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_saved_settings
-        visible, stays = imgui.begin(TITLE, True, flags.value)
-        state.show_line = bool(stays)
-        if visible:
-            self._status()
-            self._plot()
-        imgui.end()
+        tool_window.begins_in_the_corner(40.0, 22.0)
+        state.show_line = tool_window.draw(TITLE, self._contents)
+
+    def _contents(self) -> None:
+        self._status()
+        self._plot()
 
     def _wanted(self, scene: Scene) -> tuple:
         """All that the profile depends on."""

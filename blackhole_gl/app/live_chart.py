@@ -16,7 +16,7 @@ from ..measure.live import Live, LivePoint
 from ..plan import Plan
 from ..scene import Scene, SceneError, catalogue
 from ..worker import Worker
-from . import theme
+from . import theme, tool_window
 from .state import WindowState
 
 TITLE = "Error and cost"
@@ -88,17 +88,12 @@ class LiveChart:
         """The chart's window, when it is wanted; its close button puts it away."""
         if not state.show_chart:
             return
-        em = hello_imgui.em_size()
-        corner = imgui.get_main_viewport().pos
-        imgui.set_next_window_pos((corner.x + 2.0 * em, corner.y + 8.0 * em), imgui.Cond_.first_use_ever.value)
-        imgui.set_next_window_size((44.0 * em, 26.0 * em), imgui.Cond_.first_use_ever.value)
-        flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_saved_settings
-        visible, stays = imgui.begin(TITLE, True, flags.value)
-        state.show_chart = bool(stays)
-        if visible:
-            self._status()
-            self._plot(state)
-        imgui.end()
+        tool_window.begins_in_the_corner(44.0, 26.0)
+        state.show_chart = tool_window.draw(TITLE, lambda: self._contents(state))
+
+    def _contents(self, state: WindowState) -> None:
+        self._status()
+        self._plot(state)
 
     def _status(self) -> None:
         if self._live is None:

@@ -15,7 +15,7 @@ from imgui_bundle import ImVec4, hello_imgui, imgui, implot3d
 from ..render.recording import RayPath, Recorder
 from ..render.views import Scale, scale_of
 from ..scene import SceneError
-from . import path_world, theme, view_scale
+from . import path_world, theme, tool_window, view_scale
 from .area import Area
 from .click import Click
 from .path_world import PathWorld
@@ -103,19 +103,17 @@ class PathView:
         em, viewport = hello_imgui.em_size(), imgui.get_main_viewport()
         imgui.set_next_window_pos((viewport.pos.x + 1.5 * em, viewport.pos.y + 0.5 * viewport.size.y), imgui.Cond_.first_use_ever.value)
         imgui.set_next_window_size((58.0 * em, 0.48 * viewport.size.y), imgui.Cond_.first_use_ever.value)
-        flags = imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_saved_settings
-        visible, stays = imgui.begin(TITLE, True, flags.value)
-        state.show_paths = bool(stays)
-        if visible:
-            if imgui.begin_child("list", (_LIST_EM * em, 0.0)):
-                self._list(state)
-            imgui.end_child()
-            imgui.same_line()
-            imgui.begin_group()
-            self._space(state, imgui.get_content_region_avail().y - _SCALE_EM * em)
-            self._scale_row()
-            imgui.end_group()
-        imgui.end()
+        state.show_paths = tool_window.draw(TITLE, lambda: self._contents(state, em))
+
+    def _contents(self, state: WindowState, em: float) -> None:
+        if imgui.begin_child("list", (_LIST_EM * em, 0.0)):
+            self._list(state)
+        imgui.end_child()
+        imgui.same_line()
+        imgui.begin_group()
+        self._space(state, imgui.get_content_region_avail().y - _SCALE_EM * em)
+        self._scale_row()
+        imgui.end_group()
 
     def _list(self, state: WindowState) -> None:
         if not self.paths.shown:

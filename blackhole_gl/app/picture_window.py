@@ -11,7 +11,7 @@ from typing import Any
 
 from imgui_bundle import hello_imgui, imgui
 
-from . import file_dialog, scene_files, theme
+from . import file_dialog, scene_files, theme, tool_window
 from .divided import RightSide
 from .file_dialog import FileDialog
 from .state import WindowState
@@ -20,7 +20,6 @@ from .still import Order, Still
 TITLE = "Picture"
 MOST_SIDE, MOST_SAMPLES = 16384, 16
 _SIZES = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (7680, 4320), (2048, 2048))
-_FLAGS = imgui.WindowFlags_
 
 
 class PictureWindow:
@@ -79,20 +78,18 @@ class PictureWindow:
             return
         if not self._path:
             self._path, self._said = str(scene_files.new_picture(self._folder)), ""
-        em, centre = hello_imgui.em_size(), imgui.get_main_viewport().get_center()
-        imgui.set_next_window_pos((centre.x, centre.y), imgui.Cond_.appearing.value, (0.5, 0.5))
-        imgui.set_next_window_size((30.0 * em, 0.0))
-        flags = _FLAGS.no_docking | _FLAGS.no_collapse | _FLAGS.no_resize | _FLAGS.no_saved_settings
-        visible, stays = imgui.begin(TITLE, True, flags.value)
-        if visible:
-            imgui.begin_disabled(self.busy)
-            self._size_row(em)
-            self._rays_row(em)
-            self._path_row(em)
-            imgui.end_disabled()
-            self._last_row(state, right_side, em)
-        imgui.end()
-        state.show_picture_window = bool(stays)
+        tool_window.appears_in_the_middle()
+        imgui.set_next_window_size((30.0 * hello_imgui.em_size(), 0.0))
+        state.show_picture_window = tool_window.draw(TITLE, lambda: self._contents(state, right_side), imgui.WindowFlags_.no_resize)
+
+    def _contents(self, state: WindowState, right_side: Callable[[WindowState], RightSide | None]) -> None:
+        em = hello_imgui.em_size()
+        imgui.begin_disabled(self.busy)
+        self._size_row(em)
+        self._rays_row(em)
+        self._path_row(em)
+        imgui.end_disabled()
+        self._last_row(state, right_side, em)
 
     def _size_row(self, em: float) -> None:
         _label("Size", em)

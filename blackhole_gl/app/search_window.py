@@ -11,7 +11,7 @@ from imgui_bundle import hello_imgui, imgui
 
 from ..scene import Scene, presets
 from ..scene.schema import Field
-from . import preset_switch, search, sought, theme, widgets, window_settings
+from . import preset_switch, search, sought, theme, tool_window, widgets, window_settings
 from .keys import ACTIONS, Bindings, shown
 from .state import WindowState
 
@@ -41,12 +41,8 @@ class SearchWindow:
         imgui.set_next_window_size((width, 0.0))
         if opens:
             imgui.set_next_window_focus()
-        flags = _FLAGS.no_docking | _FLAGS.no_collapse | _FLAGS.no_resize | _FLAGS.no_move | _FLAGS.no_saved_settings | _FLAGS.no_nav
-        visible, stays = imgui.begin("Search", True, flags.value)
-        if visible:
-            stays = self._contents(self._entries, width, opens) and bool(stays)
-        imgui.end()
-        state.show_search = bool(stays)
+        entries = self._entries
+        state.show_search = tool_window.draw("Search", lambda: self._contents(entries, width, opens), _FLAGS.no_resize, _FLAGS.no_move, _FLAGS.no_nav)
 
     def _contents(self, entries: Sequence[search.Entry], width: float, opens: bool) -> bool:
         """Draws the field and the rows; whether the window stays."""

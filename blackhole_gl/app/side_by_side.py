@@ -16,7 +16,7 @@ from imgui_bundle import hello_imgui, imgui
 from ..measure import live
 from ..measure.gauge import Gauged, gauging
 from ..scene import Scene, SceneError, presets
-from . import overlay, theme
+from . import overlay, theme, tool_window
 from .area import Area
 from .divided import RightSide, joined
 from .picture import Picture
@@ -203,22 +203,20 @@ class SideBySide:
         narrow = size[0] < (_CHOICES_EM + 8.0) * em
         place = (left_top[0] + 0.6 * em, left_top[1] + 7.2 * em) if narrow else (left_top[0] + size[0] - 7.5 * em, left_top[1] + 0.6 * em)
         imgui.set_next_window_pos(place, imgui.Cond_.appearing.value, (0.0 if narrow else 1.0, 0.0))
-        flags = _FLAGS.no_docking | _FLAGS.no_collapse | _FLAGS.no_saved_settings | _FLAGS.always_auto_resize
-        visible, stays = imgui.begin(TITLE, True, flags.value)
-        state.show_sides = bool(stays)
-        if visible:
-            imgui.align_text_to_frame_padding()
-            imgui.text_unformatted("On the right")
-            imgui.same_line()
-            imgui.set_next_item_width(18.0 * em)
-            self._picker(state)
-            if imgui.button("Keep this picture there"):
-                self.sides.keep(state.scene)
-            imgui.set_item_tooltip("What is shown now stays on the right, whatever the panel changes on the left.")
-            imgui.same_line()
-            if imgui.button("Swap"):
-                self.sides.swap(state)
-        imgui.end()
+        state.show_sides = tool_window.draw(TITLE, lambda: self._choice(state), _FLAGS.always_auto_resize)
+
+    def _choice(self, state: WindowState) -> None:
+        imgui.align_text_to_frame_padding()
+        imgui.text_unformatted("On the right")
+        imgui.same_line()
+        imgui.set_next_item_width(18.0 * hello_imgui.em_size())
+        self._picker(state)
+        if imgui.button("Keep this picture there"):
+            self.sides.keep(state.scene)
+        imgui.set_item_tooltip("What is shown now stays on the right, whatever the panel changes on the left.")
+        imgui.same_line()
+        if imgui.button("Swap"):
+            self.sides.swap(state)
 
     def _picker(self, state: WindowState) -> None:
         if not imgui.begin_combo("##other side", self.sides.name, imgui.ComboFlags_.height_large.value):
