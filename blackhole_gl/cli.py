@@ -2,43 +2,22 @@
 
 from __future__ import annotations
 
-import cmath
-import math
-import re
 import sys
 from pathlib import Path
 from typing import Annotated, TextIO
 
 from . import VERSION
 from .arguments import Argument, Option, Program
+from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
+from .research import polarization, profile, ring, trace
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux")  # options that no value follows
-
-Named = Annotated[
-    list[str] | None,
-    Argument(metavar="[PRESET]...", help="Presets, as with --preset; those given with --preset are layered over them."),
-]
-Presets = Annotated[
-    list[str] | None,
-    Option(
-        "--preset",
-        "-p",
-        help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.",
-        default="kerr",
-    ),
-]
-Settings = Annotated[
-    list[str] | None,
-    Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
-]
-AnyFile = Annotated[bool, Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
-Backend = Annotated[str, Option(help="How to get a GL context without a window: auto, egl or osmesa.", variable="BLACKHOLE_GL_BACKEND")]
 
 
 def main() -> None:
@@ -106,11 +85,11 @@ def view(
     from .self_check import display_present
 
     preset = [*(names or ()), *(preset or ())]
-    begins = _time(time, preset)
+    begins = time_of(time, preset)
     if not (preset or set_) and (last := _last_scene()):
         scene, begins = last[0], last[1] if time is None else begins
     else:
-        scene, preset = _scene(preset, set_, any_file), preset or list(preset_files.DEFAULT_PRESETS)
+        scene, preset = scene_of(preset, set_, any_file), preset or list(preset_files.DEFAULT_PRESETS)
     if not display_present():
         out = Path("blackhole.png").resolve()
         print("There is no display (DISPLAY is not set; under Wayland, XWayland sets it), so no window can be opened.")
@@ -120,7 +99,7 @@ def view(
         return
     from .app import window
 
-    window.run(scene, preset_names=preset, any_file=any_file, time=begins, size=_size(size) if size else None)
+    window.run(scene, preset_names=preset, any_file=any_file, time=begins, size=size_of(size) if size else None)
 
 
 def render(
@@ -141,114 +120,16 @@ def render(
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
+    scene = scene_of(preset, set_, any_file)
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
         refuse_unwritable(out, (".png",), "a PNG picture")
-    _refuse_unmet(scene, set_)
+    refuse_unmet(scene, set_)
     if out is not None:
-        _render(scene, _size(size), _time(time, preset), out, supersample or scene.rays.in_stills, backend)
+        _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend)
     if flux:
-        _print_flux(scene, _size(size), _time(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
-
-
-def trace(
-    rays: Annotated[Path, Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
-    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a ray. - is standard output.")],
-    names: Named = None,
-    preset: Presets = None,
-    set_: Settings = None,
-    any_file: AnyFile = False,
-    float64: Annotated[bool, Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
-    backend: Backend = "auto",
-) -> None:
-    """Trace listed rays through the shader that pictures use.
-
-    psi is the angle from the direction to the hole's centre, chi the angle on the screen from right (+e_φ) towards up (north).
-    """
-    from . import listed_rays
-
-    preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
-    refuse_unwritable(out, (".csv", ".txt"), "CSV")
-    listed = listed_rays.read(rays, scene)
-    _refuse_unmet(scene, set_)
-    if float64:
-        found = listed_rays.trace_by_reference(scene, listed.rays)
-    else:
-        _tell_warnings(scene)
-        found = listed_rays.trace_by_shader(_renderer(backend), scene, listed.rays)
-    listed_rays.write(out, found, 17 if float64 else 9, listed)
-
-
-def profile(
-    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a bin of g = E_infinity/E_emitter. - is standard output.")],
-    names: Named = None,
-    preset: Presets = None,
-    set_: Settings = None,
-    any_file: AnyFile = False,
-    emissivity: Annotated[float, Option(least=-5.0, most=10.0, help="q of the line's power, r^-q.")] = 3.0,
-    bins: Annotated[int, Option(least=10, most=2000, help="Bins between the least g and the largest.")] = 200,
-    backend: Backend = "auto",
-) -> None:
-    """Write the profile of a narrow line from the whole disk, of each order of image, and say what share of the light each has."""
-    from .measure import line_profile
-
-    preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
-    refuse_unwritable(out, (".csv", ".txt"), "CSV")
-    line_profile.refuse(scene)
-    _refuse_unmet(scene, set_)
-    _tell_warnings(scene)
-    found = line_profile.measure(_renderer(backend), scene, index=emissivity, bins=bins)
-    write_whole(out, found.as_csv().encode())
-    for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
-        print(f"{name:12} {100.0 * share:.3g} % of the light", file=sys.stderr)
-    print(f"mean g       {found.mean:.4f}", file=sys.stderr)
-
-
-def polarization(
-    out: Annotated[Path, Option("--out", "-o", help="The NumPy archive to write: I, Q and U of each pixel, top row first. - is standard output.")],
-    names: Named = None,
-    preset: Presets = None,
-    set_: Settings = None,
-    any_file: AnyFile = False,
-    size: Annotated[str, Option(help="Width × height in pixels.")] = "640x360",
-) -> None:
-    """Write how the light of the disk is polarized, pixel by pixel, and say how much of it is, along what, and beta_2."""
-    from .measure import polarization_maps
-
-    preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
-    refuse_unwritable(out, (".npz",), "a NumPy archive")
-    with Progress("polarization") as progress:
-        found = polarization_maps.measure(scene, _size(size), progress)
-    write_whole(out, found.as_npz())
-    share, angle = found.net
-    print(f"polarized    {100.0 * found.mean_share:.3g} % of the light, {100.0 * share:.3g} % of all together, along {angle:.2f}°", file=sys.stderr)
-    print(f"beta_2       {abs(found.beta_2):.4f}, phase {math.degrees(cmath.phase(found.beta_2)):.2f}°", file=sys.stderr)
-
-
-def ring(
-    names: Named = None,
-    preset: Presets = None,
-    set_: Settings = None,
-    any_file: AnyFile = False,
-    size: Annotated[str, Option(help="Width × height in pixels of the picture that is measured.")] = "600x600",
-    time: Annotated[float | None, Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.")] = None,
-    backend: Backend = "auto",
-) -> None:
-    """Measure the ring in a picture: diameter, width, asymmetry and beta_2, of the light as it comes and through the scene's beam."""
-    from .measure import ring as ring_measure
-
-    preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
-    ring_measure.refuse(scene)
-    _refuse_unmet(scene, set_)
-    _tell_warnings(scene)
-    found = ring_measure.measure(_renderer(backend), scene, _time(time, preset), _size(size))
-    print(ring_measure.text(found, scene), end="")
+        _print_flux(scene, size_of(size), time_of(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
 
 
 def plan(
@@ -263,7 +144,7 @@ def plan(
     from . import plan as planning
 
     preset = [*(names or ()), *(preset or ())]
-    scene = _scene(preset, set_, any_file)
+    scene = scene_of(preset, set_, any_file)
     chosen, made = planning.choice.choose(scene), planning.plan(scene)
     moving = planning.choice.refinement(chosen.scene)
     print(f"method     {made.method}")
@@ -276,7 +157,7 @@ def plan(
     if measure:
         from .measure.prediction import measured, measured_refined
 
-        renderer = _renderer(backend)
+        renderer = renderer_by(backend)
         found = measured(renderer, scene)
         print(f"measured   {found.error_px:.2g} px at 99 % of the pixels, {found.cost:.3g} flat frames")
         if made.refine_px or moving is not None:
@@ -285,7 +166,7 @@ def plan(
         print(f"  - {reason}")
     for warning in made.warnings:
         print(f"  ! {warning}")
-    _refuse_unmet(scene, set_)
+    refuse_unmet(scene, set_)
 
 
 def bench(
@@ -310,11 +191,11 @@ def bench(
     preset = [*(names or ()), *(preset or ())]
     if suite == "weiskopf" and (preset or set_ or len(size or ()) > 1):
         raise SceneError("--suite", "weiskopf has scenes of its own and one size; allowed beside it are --size once, --rounds, --json and --backend")
-    scene = _scene(preset, set_, any_file)
+    scene = scene_of(preset, set_, any_file)
     if json is not None:
         refuse_unwritable(json, (".json",), "JSON")
-    sizes = [_size(text) for text in size] if size else benching.SIZES
-    renderer = _renderer(backend)
+    sizes = [size_of(text) for text in size] if size else benching.SIZES
+    renderer = renderer_by(backend)
     found: benching.Bench | weiskopf.Suite
     with Progress("timing") as progress:
         if suite == "weiskopf":
@@ -344,7 +225,7 @@ def presets(
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
-        print(preset_files.dumps(_scene([name], None, any_file=True), full=True), end="")
+        print(preset_files.dumps(scene_of([name], None, any_file=True), full=True), end="")
         return
     group = ""
     for info in preset_files.available():
@@ -352,15 +233,6 @@ def presets(
             group = info.group
             print(f"{group}:")
         print(f"  {info.name:20} {info.title}")
-
-
-def _scene(names: list[str] | None, assignments: list[str] | None, any_file: bool) -> Scene:
-    for former, present in preset_files.renamed(names or ()).items():
-        print(f"blackhole-gl: the preset {former} is now called {present}; `blackhole-gl presets` lists the levels of quality", file=sys.stderr)
-    scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()), any_file=any_file)
-    for sentence in preset_files.skipped(names or (), any_file=any_file):
-        print(f"blackhole-gl: {sentence}", file=sys.stderr)
-    return scene
 
 
 def _last_scene() -> tuple[Scene, float] | None:
@@ -371,63 +243,18 @@ def _last_scene() -> tuple[Scene, float] | None:
     if not path.is_file():
         return None
     try:
-        return _scene([str(path)], None, any_file=True), float(preset_files.read(path).time or 0.0)
+        return scene_of([str(path)], None, any_file=True), float(preset_files.read(path).time or 0.0)
     except SceneError as error:
         print(f"blackhole-gl: the last scene is left out: {error}", file=sys.stderr)
         return None
-
-
-def _refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
-    """A tolerance below the floor is an error where it was given by hand; that of a preset only earns a warning, so that any camera gives a picture."""
-    from .plan import choice
-
-    made = choice.choose(scene)
-    if not made.meets and "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
-        text = f"{scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
-        raise SceneError("rays.tolerance", text)
-
-
-def _tell_warnings(scene: Scene) -> None:
-    from .plan import plan as make_plan
-
-    for warning in make_plan(scene).warnings:
-        print(f"blackhole-gl: {warning}", file=sys.stderr)
-
-
-def _time(time: float | None, names: list[str] | None) -> float:
-    """The time asked for, or that of the last among the presets that has one, as pictures and saved scenes have."""
-    if time is not None:
-        return time
-    timed = preset_files.last_timed(names or ())
-    return float(timed.time or 0.0) if timed else 0.0
-
-
-def _size(text: str) -> tuple[int, int]:
-    """(width, height) of ``1280x720``.
-
-    Raises:
-        ValueError: not of that form, or not 1…16384 pixels each.
-    """
-    match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip())
-    size = (int(match[1]), int(match[2])) if match else (0, 0)
-    if not all(1 <= side <= 16384 for side in size):
-        raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
-    return size
-
-
-def _renderer(backend: str):
-    from .render.context import create_headless
-    from .render.frame import Renderer
-
-    return Renderer(create_headless(backend))
 
 
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
     from .output import png
     from .render.annotation import annotated
 
-    _tell_warnings(scene)
-    renderer = _renderer(backend)
+    tell_warnings(scene)
+    renderer = renderer_by(backend)
     with Progress("rendering") as progress:
         renderer.render_still(scene, time, size, samples, progress)
     pixels = annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
@@ -438,7 +265,7 @@ def _print_flux(scene: Scene, size: tuple[int, int], time: float, backend: str, 
     from .measure import flux
 
     with Progress("measuring") as progress:
-        found = flux.measured(_renderer(backend), scene, time, size, progress)
+        found = flux.measured(renderer_by(backend), scene, time, size, progress)
     print(found, file=file)
 
 

@@ -23,6 +23,8 @@ LAYERS = (
     {"measure"},
     {"app"},
     {"self_check"},
+    {"asked"},
+    {"research"},
     {"cli"},
     {"__main__"},
 )

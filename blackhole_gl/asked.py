@@ -1,0 +1,103 @@
+"""What commands are asked for in the same words: their scene, its time, a size, a renderer; and what is said of a scene before it is drawn."""
+
+from __future__ import annotations
+
+import re
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+from .arguments import Argument, Option
+from .scene import Scene, SceneError
+from .scene import presets as preset_files
+
+if TYPE_CHECKING:
+    from .render.frame import Renderer
+
+Named = Annotated[
+    list[str] | None,
+    Argument(metavar="[PRESET]...", help="Presets, as with --preset; those given with --preset are layered over them."),
+]
+Presets = Annotated[
+    list[str] | None,
+    Option(
+        "--preset",
+        "-p",
+        help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.",
+        default="kerr",
+    ),
+]
+Settings = Annotated[
+    list[str] | None,
+    Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
+]
+AnyFile = Annotated[bool, Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
+Backend = Annotated[str, Option(help="How to get a GL context without a window: auto, egl or osmesa.", variable="BLACKHOLE_GL_BACKEND")]
+
+
+def scene_of(names: list[str] | None, assignments: list[str] | None, any_file: bool) -> Scene:
+    """The scene of presets `names`, layered, with `assignments` over them; former names and what is skipped are told.
+
+    Raises:
+        SceneError: there is no such preset, or it or an assignment has a mistake.
+    """
+    for former, present in preset_files.renamed(names or ()).items():
+        print(f"blackhole-gl: the preset {former} is now called {present}; `blackhole-gl presets` lists the levels of quality", file=sys.stderr)
+    scene = preset_files.load(names or preset_files.DEFAULT_PRESETS, preset_files.parse_assignments(assignments or ()), any_file=any_file)
+    for sentence in preset_files.skipped(names or (), any_file=any_file):
+        print(f"blackhole-gl: {sentence}", file=sys.stderr)
+    return scene
+
+
+def refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
+    """A tolerance below the floor is an error where it was given by hand; that of a preset only earns a warning, so that any camera gives a picture.
+
+    Raises:
+        SceneError: it is below the floor.
+    """
+    from .plan import choice
+
+    made = choice.choose(scene)
+    if not made.meets and "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
+        text = f"{scene.rays.tolerance:g} px cannot be met in this scene; the floor of what was measured here is {made.floor_px:.2g} px"
+        raise SceneError("rays.tolerance", text)
+
+
+def tell_warnings(scene: Scene) -> None:
+    """Says what makes the picture worse than the scene asks."""
+    from .plan import plan as make_plan
+
+    for warning in make_plan(scene).warnings:
+        print(f"blackhole-gl: {warning}", file=sys.stderr)
+
+
+def time_of(time: float | None, names: list[str] | None) -> float:
+    """The time asked for, or that of the last among the presets that has one, as pictures and saved scenes have."""
+    if time is not None:
+        return time
+    timed = preset_files.last_timed(names or ())
+    return float(timed.time or 0.0) if timed else 0.0
+
+
+def size_of(text: str) -> tuple[int, int]:
+    """(width, height) of ``1280x720``.
+
+    Raises:
+        ValueError: not of that form, or not 1…16384 pixels each.
+    """
+    match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip())
+    size = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not all(1 <= side <= 16384 for side in size):
+        raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
+    return size
+
+
+def renderer_by(backend: str) -> Renderer:
+    """A renderer without a window.
+
+    Raises:
+        ContextError: there is no such way on this machine.
+    """
+    from .render.context import create_headless
+    from .render.frame import Renderer
+
+    return Renderer(create_headless(backend))

@@ -1,0 +1,112 @@
+"""The commands that write numbers in place of a picture: trace, profile, polarization and ring."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from .arguments import Option
+from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .output.files import refuse_unwritable, write_whole
+from .output.progress import Progress
+
+
+def trace(
+    rays: Annotated[Path, Option(help="CSV with columns psi,chi (radians), or alpha,beta (M) with camera.distance=inf.")],
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a ray. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    float64: Annotated[bool, Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
+    backend: Backend = "auto",
+) -> None:
+    """Trace listed rays through the shader that pictures use.
+
+    psi is the angle from the direction to the hole's centre, chi the angle on the screen from right (+e_φ) towards up (north).
+    """
+    from . import listed_rays
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
+    listed = listed_rays.read(rays, scene)
+    refuse_unmet(scene, set_)
+    if float64:
+        found = listed_rays.trace_by_reference(scene, listed.rays)
+    else:
+        tell_warnings(scene)
+        found = listed_rays.trace_by_shader(renderer_by(backend), scene, listed.rays)
+    listed_rays.write(out, found, 17 if float64 else 9, listed)
+
+
+def profile(
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a bin of g = E_infinity/E_emitter. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    emissivity: Annotated[float, Option(least=-5.0, most=10.0, help="q of the line's power, r^-q.")] = 3.0,
+    bins: Annotated[int, Option(least=10, most=2000, help="Bins between the least g and the largest.")] = 200,
+    backend: Backend = "auto",
+) -> None:
+    """Write the profile of a narrow line from the whole disk, of each order of image, and say what share of the light each has."""
+    from .measure import line_profile
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
+    line_profile.refuse(scene)
+    refuse_unmet(scene, set_)
+    tell_warnings(scene)
+    found = line_profile.measure(renderer_by(backend), scene, index=emissivity, bins=bins)
+    write_whole(out, found.as_csv().encode())
+    for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
+        print(f"{name:12} {100.0 * share:.3g} % of the light", file=sys.stderr)
+    print(f"mean g       {found.mean:.4f}", file=sys.stderr)
+
+
+def polarization(
+    out: Annotated[Path, Option("--out", "-o", help="The NumPy archive to write: I, Q and U of each pixel, top row first. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    size: Annotated[str, Option(help="Width × height in pixels.")] = "640x360",
+) -> None:
+    """Write how the light of the disk is polarized, pixel by pixel, and say how much of it is, along what, and beta_2."""
+    from .measure import polarization_maps
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    refuse_unwritable(out, (".npz",), "a NumPy archive")
+    with Progress("polarization") as progress:
+        found = polarization_maps.measure(scene, size_of(size), progress)
+    write_whole(out, found.as_npz())
+    share, angle = found.net
+    print(f"polarized    {100.0 * found.mean_share:.3g} % of the light, {100.0 * share:.3g} % of all together, along {angle:.2f}°", file=sys.stderr)
+    print(f"beta_2       {abs(found.beta_2):.4f}, phase {math.degrees(cmath.phase(found.beta_2)):.2f}°", file=sys.stderr)
+
+
+def ring(
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    size: Annotated[str, Option(help="Width × height in pixels of the picture that is measured.")] = "600x600",
+    time: Annotated[float | None, Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.")] = None,
+    backend: Backend = "auto",
+) -> None:
+    """Measure the ring in a picture: diameter, width, asymmetry and beta_2, of the light as it comes and through the scene's beam."""
+    from .measure import ring as ring_measure
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    ring_measure.refuse(scene)
+    refuse_unmet(scene, set_)
+    tell_warnings(scene)
+    found = ring_measure.measure(renderer_by(backend), scene, time_of(time, preset), size_of(size))
+    print(ring_measure.text(found, scene), end="")
