@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.app import virtual_display
+from tests.app.blind import BLIND
 
 pytestmark = pytest.mark.display
 
@@ -18,7 +19,7 @@ DPI = {1.0: 96, 1.5: 144, 2.0: 192}
 
 def labels(environment: dict, folder: Path, *words: str) -> dict:
     """What labels_at_start.py says."""
-    environment = environment | {"BLACKHOLE_GL_CONFIG_DIR": str(folder)}
+    environment = environment | BLIND | {"BLACKHOLE_GL_CONFIG_DIR": str(folder)}
     done = subprocess.run([sys.executable, str(SCRIPT), *words], env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])

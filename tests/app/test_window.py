@@ -10,6 +10,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 
+from tests.app.blind import BLIND
 from tests.unit import kinds
 
 HERE = Path(__file__).resolve().parent
@@ -21,7 +22,6 @@ REAL = re.findall(r"\w+", " ".join(re.findall(r"^WITH_THE_REAL_RENDERER = \(([^)
 WITH_KINDS = re.findall(r"\w+", re.search(r"^WITH_KINDS = \((.*)\)", TEXT, re.MULTILINE)[1])
 LOOKING = re.findall(r"\w+", re.search(r"^LOOKING = \((.*)\)", TEXT, re.MULTILINE)[1])
 PRETENDED = [name for name in SCENARIOS if name not in REAL + WITH_KINDS + LOOKING]
-BLIND = {"LP_NO_RAST": "1"}  # Mesa's software renderer then fills no pixels, which take half the time of scenarios that look at none; other drivers fill them
 
 
 def pretended_dialog(folder: Path) -> Path:

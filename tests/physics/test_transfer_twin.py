@@ -40,7 +40,7 @@ def check_gold(fluxes: np.ndarray) -> None:
 
 
 def test_the_five_tests_of_the_code_comparison_coarsely():
-    check_gold(np.array([gold_flux(test, 24, "kerr_schild") for test in range(5)]))
+    check_gold(np.array([gold_flux(test, 16, "kerr_schild") for test in range(5)]))
 
 
 @pytest.mark.slow
