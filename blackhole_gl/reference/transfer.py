@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from ..shapes import Bool, Float, Int
 from .events import LightRays, LightSystem
 from .hits import CAPTURED, ESCAPED, UNRESOLVED
-from .integrator import extrapolated_step, locate_zero, march, rate_along
+from .integrator import locate_zero, march, rate_along
 from .media import Medium, Space
 from .observers import Place
 from .registry import Twin, View, twin_of
@@ -37,7 +37,7 @@ HORIZON_MARGIN = 1e-4
 """Of the horizon's radius: where media end above it."""
 _BATCH = 4096
 _MAX_STEPS = 20000
-_BEYOND = 1e-11  # of a step, beyond the surface: more than rounding leaves open
+_BEYOND = 1e-11  # of a step, beyond the surface: more than rounding leaves open, and from the state there, which a fresh step need not come to again
 _DEEPEST = 3.0  # optical depth of a step, as its start has it
 _DARK = 40.0  # optical depth behind which nothing is seen: e^-40 is 4e-18
 
@@ -211,8 +211,8 @@ class _WithMedium:
 
     def _surface(self, before: Array, after: Array, step: Array) -> Array:
         """The states on the medium's surface, a hair beyond, with what is within exchanged for what is without."""
-        parameter, _ = locate_zero(self.rhs, self._level, before, after, step)
-        state, _ = extrapolated_step(self.rhs, before, np.minimum(parameter + _BEYOND * step, step))
+        parameter, state = locate_zero(self.rhs, self._level, before, after, step)
+        state = state + (np.minimum(parameter + _BEYOND * step, step) - parameter) * self.rhs(state)
         state[self.within] = 1.0 - before[self.within]
         return state
 

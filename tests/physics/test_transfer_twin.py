@@ -7,7 +7,7 @@ import pytest
 
 from blackhole_gl.physics.torus import Torus
 from blackhole_gl.reference import CAPTURED, ESCAPED, transfer
-from blackhole_gl.reference.media import AnalyticPlasma, Ball, Doughnut
+from blackhole_gl.reference.media import AnalyticPlasma, Ball, Doughnut, Slab
 from blackhole_gl.reference.observers import Place
 
 # Gold et al. 2020: hole of 4.063e6 suns at 7778 pc, 230 GHz, 60 degrees, 30 x 30 M; GM/c^2 and the distance in cm.
@@ -106,6 +106,14 @@ def test_two_forms_of_kerr_gather_the_same(medium):
     # Rays that wind about the hole part as e^(pi n): what 1e-10 a step has become.
     np.testing.assert_allclose(first.intensity, second.intensity, atol=1e-7)
     np.testing.assert_allclose(first.transmittance, second.transmittance, atol=1e-7)
+
+
+def test_a_ray_that_grazes_a_corner_goes_on(monkeypatch):
+    """In long steps: what is beyond the surface is so from the state that was found on it, not from another step's. It once stood there for good."""
+    monkeypatch.setattr(transfer, "_MAX_STEPS", 300)  # 54 do
+    grazing = [[-0.976981145977265, 0.11452932272470541, 0.17997464999596566]]
+    seen = transfer.gather("kerr", Slab(2.0, 7.0, 0.5, 2.0, 1.0), spin=0.9, distance=20.0, inclination_deg=80.0, directions=grazing, tolerance=1e-6)
+    assert list(seen.fate) == [ESCAPED] and 0.0 < seen.intensity[0, 0] < 1e-6
 
 
 def test_halving_the_tolerance_changes_what_it_says():

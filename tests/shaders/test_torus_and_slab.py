@@ -118,7 +118,7 @@ PICTURES = {
     "a = 0.9, other form": {"hole.spin": 0.9, "rays.model": "kerr_schild",
                             "media.ring.inner_radius": 3.0, "media.ring.peak_radius": 5.0, "media.ring.depth": 0.5},
 }
-SIZE = (24, 16)
+SIZE = (30, 20)
 QUIET = {"disk.enabled": False, "sky.enabled": False, "post.bloom": False, "rays.edges": 1, "rays.tolerance": 0.02, "camera.fov_deg": 30.0}
 RING = {"media.ring.kind": "torus", "media.ring.radius": 15.0, "media.ring.dims": (1.0, 0.5, 0.1), "media.ring.colour": (1.0, 0.7, 0.3)}
 
