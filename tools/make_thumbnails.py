@@ -35,6 +35,9 @@ def draw(renderer: Renderer, name: str) -> np.ndarray:
 def main() -> None:
     folder = Path(assets_dir()) / "thumbnails"
     folder.mkdir(exist_ok=True)
+    for left in folder.glob("*.jpg"):
+        if left.stem not in {info.name for info in pictured()}:
+            left.unlink()
     renderer = Renderer(create_headless())
     for info in pictured():
         path = folder / f"{info.name}.jpg"
