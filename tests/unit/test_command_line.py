@@ -162,6 +162,24 @@ def test_options_stand_where_people_type_them(typed: str, meant: str) -> None:
     assert cli._with_command(typed.split()) == meant.split()
 
 
+def test_a_reader_that_goes_is_no_mistake(tmp_path: Path) -> None:
+    """As with `blackhole-gl presets | head -1`."""
+    command = [sys.executable, "-m", "blackhole_gl", "presets"]
+    with subprocess.Popen(command, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as writer:
+        writer.stdout.close()
+        assert (writer.stderr.read(), writer.wait()) == (b"", 1)
+
+
+def test_an_interrupt_says_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def interrupted(words: list[str]) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "run", interrupted)
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert (ended.value.code, capsys.readouterr().err) == (130, "")
+
+
 def test_presets_are_named_without_an_option(tmp_path: Path) -> None:
     assert run(tmp_path, "render", "kerr", "-s", "hole.spin=0.5", *SMALL, "-o", "x.png").returncode == 0
     (tmp_path / "mine.toml").write_text(presets.dumps(presets.from_png(tmp_path / "x.png")))
