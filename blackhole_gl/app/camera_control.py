@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from ..physics import relativity
-from ..physics.space_time import space_time
+from ..physics.observer import least_distance
 from ..scene import Scene, fields
 from ..scene.schema import Field
 
@@ -86,9 +86,9 @@ def _is_near(a: Pose, b: Pose) -> bool:
     return max(abs(a.azimuth - b.azimuth), abs(a.inclination - b.inclination)) < _REST_DEG and abs(a.reach - b.reach) < _REST_REACH
 
 
-def horizon_radius(scene: Scene) -> float:
-    """The outer horizon r_+ in r_s of what the ray model shows, which zooming approaches and never passes."""
-    return space_time(scene).horizon_radius
+def floor_radius(scene: Scene) -> float:
+    """What zooming approaches and never passes, in r_s: the outer horizon r_+ of what the ray model shows; for a camera that falls, the end of its fall."""
+    return least_distance(scene)
 
 
 def pose_of(scene: Scene) -> Pose:
@@ -150,14 +150,14 @@ def shadow_angle(scene: Scene) -> float:
 
 def clear_of_horizon(scene: Scene) -> Scene:
     """`scene`, with a camera that is not above the horizon moved out to the least distance that the hand could bring it to."""
-    if scene.camera.distance >= horizon_radius(scene) + 0.5 * _NEAREST:
+    if scene.camera.distance >= floor_radius(scene) + 0.5 * _NEAREST:
         return scene
     return scene.with_values({"camera.distance": float(f"{range_by_hand(scene)[0]:.6g}")})
 
 
 def range_in(scene: Scene, item: Field) -> Field:
     """`item` with the range that it has in `scene`: the camera's distance begins just above the horizon."""
-    return replace(item, low=max(item.low, horizon_radius(scene) + _NEAREST)) if item.key == "camera.distance" else item
+    return replace(item, low=max(item.low, floor_radius(scene) + _NEAREST)) if item.key == "camera.distance" else item
 
 
 def _extent_field(scene: Scene) -> Field:
@@ -170,4 +170,4 @@ def _extent(scene: Scene) -> float:
 
 
 def _floor(scene: Scene) -> float:
-    return 0.0 if math.isinf(scene.camera.distance) else horizon_radius(scene)
+    return 0.0 if math.isinf(scene.camera.distance) else floor_radius(scene)

@@ -14,7 +14,7 @@ import numpy as np
 from ..physics.observer import cos_sin_deg, look_rotation
 from ..scene import Scene, fields
 from ..shapes import Float
-from .camera_control import horizon_radius, range_in
+from .camera_control import floor_radius, range_in
 
 RATE = 0.8  # of the height above the horizon, a second
 _EASE_S = 0.15  # in which it picks up speed, and loses it
@@ -64,7 +64,7 @@ def flown(scene: Scene, way: tuple[float, float, float]) -> Mapping[str, float]:
     camera = scene.camera
     frame = _frame(camera.inclination_deg, camera.azimuth_deg)
     axes = look_rotation(camera).T @ frame  # back, down, right
-    step = (camera.distance - horizon_radius(scene)) * np.array([-way[2], -way[1], way[0]])
+    step = (camera.distance - floor_radius(scene)) * np.array([-way[2], -way[1], way[0]])
     place = camera.distance * frame[0] + step @ axes
     nearest, farthest = range_in(scene, fields()["camera.distance"]).low, fields()["camera.distance"].high
     distance = min(max(float(np.linalg.norm(place)), nearest), farthest)

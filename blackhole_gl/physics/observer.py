@@ -18,10 +18,13 @@ from numpy.typing import ArrayLike
 from ..scene import Camera, Scene, SceneError
 from ..shapes import Float
 from . import observer_frames
-from .space_time import space_time
+from .space_time import SpaceTime, space_time
 
 # Half a picture's height at distance 1 per degree of view is no more than this; a direction to the hole less ahead than its inverse is off every screen.
 _LEAST_AHEAD = 1e-3
+
+FALLING = ("rain", "fall")
+"""The observers that may be inside a horizon."""
 
 _INWARDS = np.array([-1.0, 0.0, 0.0])
 _SEEN = np.array([1.0, 0.0, 0.0, 0.0])
@@ -39,7 +42,7 @@ class Observer:
         tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) = tetrad · (1, n_r, n_θ, n_φ), still to be divided by E; primes are derivatives in Mino time
             (M = 1) along the ray traced backwards (docs/physics.md). Of the moving observer, or of one at rest in his place where aberration is off.
         look: float64 (3, 3) rotation of the view: n = look · v, with v = (−1, 0, 0) for the middle of the picture.
-        zamo: float64 (4, 4): (E, n) in the frame of zero angular momentum from (1, n).
+        zamo: float64 (4, 4): (E, n) in the frame of zero angular momentum from (1, n); None inside the horizon.
         hole: local unit vector (3,) to the hole's centre, as the aberration of straight inwards has it.
         colour, beaming: float64 (4,): the energy that light from n shows, · (1, n), as it counts for colours and for brightness: (1, 0, 0, 0) unless the
             observer's motion is not to count.
@@ -53,7 +56,7 @@ class Observer:
     e_phi: Float[np.ndarray, " 3"]
     tetrad: Float[np.ndarray, "4 4"]
     look: Float[np.ndarray, "3 3"]
-    zamo: Float[np.ndarray, "4 4"] = field(default_factory=lambda: np.eye(4))
+    zamo: Float[np.ndarray, "4 4"] | None = field(default_factory=lambda: np.eye(4))
     hole: Float[np.ndarray, " 3"] = field(default_factory=lambda: _INWARDS.copy())
     colour: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
     beaming: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
@@ -115,7 +118,7 @@ def observe(scene: Scene) -> Observer:
     if math.isinf(camera.distance):
         observer_frames.refuse_far(camera)
         return Observer("infinity", where.observer_spin, 0.0, n, e_theta, e_phi, np.diag([1.0, -1.0, 1.0, 1.0]), look)
-    _outside(camera.distance, where.horizon_radius, where.horizon_spin)
+    _refuse_inside(camera, where)
     r = 2.0 * camera.distance  # M = 1 from here on
     flat = where.kind == "flat"
     frame = observer_frames.flat_frame(r, camera) if flat else observer_frames.hole_frame(r, cos_theta, sin_theta, where, camera)
@@ -133,6 +136,8 @@ def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Obs
     if not is_moving(camera):
         return seen
     moves = observer_frames.lorentz(observer_frames.boost(camera))
+    if frame.zamo is None or frame.rest is None:
+        return _moving_inside(seen, moves, camera)
     zamo = frame.zamo @ moves
     motion = np.linalg.solve(frame.rest, zamo)  # (E, n) at rest there from the observer's (1, n)
     energies = {True: _SEEN, False: motion[0]}
@@ -149,6 +154,26 @@ def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Obs
         colour=energies[camera.doppler_colour],
         beaming=energies[camera.beaming],
     )
+
+
+def _moving_inside(seen: Observer, moves: Float[np.ndarray, "4 4"], camera: Camera) -> Observer:
+    """The same inside the horizon, where nobody can be at rest to leave a part of the motion to.
+
+    Raises:
+        SceneError: a part of it is switched off.
+    """
+    for name in ("aberration", "doppler_colour", "beaming"):
+        if not getattr(camera, name):
+            text = "got false; inside the horizon all is in motion, and there is nobody at rest to see without: allowed is true"
+            raise SceneError(f"camera.{name}", text)
+    hole = np.linalg.solve(moves, np.array([1.0, *_INWARDS]))[1:]
+    return replace(seen, tetrad=seen.tetrad @ moves, zamo=None, hole=hole / np.linalg.norm(hole))
+
+
+def least_distance(scene: Scene) -> float:
+    """Radius in r_s that the camera of `scene` has to be outside of: the horizon, or for one that falls the innermost that it is followed to."""
+    where = space_time(scene)
+    return where.innermost_camera if scene.camera.observer in FALLING else where.horizon_radius
 
 
 def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
@@ -172,10 +197,18 @@ def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
     return yaw @ pitch @ roll
 
 
-def _outside(distance: float, horizon: float, a: float) -> None:
-    """Raises ValueError where a camera at `distance` is not outside the horizon, both in r_s."""
-    if distance <= horizon:
-        raise ValueError(f"camera.distance: got {distance:g} r_s; at spin {a:g} the horizon is at {horizon:.6g} r_s and the camera must be outside it")
+def _refuse_inside(camera: Camera, where: SpaceTime) -> None:
+    """Raises SceneError where `camera` is not outside the horizon, unless it falls and light is traced from there."""
+    horizon = where.horizon_radius
+    if camera.distance > horizon:
+        return
+    text = f"got {camera.distance:g} r_s; at spin {where.horizon_spin:g} the horizon is at {horizon:.6g} r_s"
+    if camera.observer not in FALLING:
+        raise SceneError("camera.distance", f"{text} and the camera must be outside it: nothing rests or circles inside, where only rain and fall are")
+    if not where.crosses_horizon:
+        raise SceneError("camera.distance", f"{text} and this ray model does not lead through it: allowed inside are rays.model kerr and auto")
+    if camera.distance < where.innermost_camera:
+        raise SceneError("camera.distance", f"{text} and a fall is followed down to {where.innermost_camera:.6g} r_s: allowed is that at least")
 
 
 def local_directions(psi: ArrayLike, chi: ArrayLike) -> Float[np.ndarray, "*rays 3"]:

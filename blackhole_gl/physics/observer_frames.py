@@ -27,14 +27,14 @@ class Frame:
     Attributes:
         kind: ``static``, ``zamo``, ``circular``, ``rain`` or ``fall``, as used (a static observer gives way to the ZAMO in the ergosphere).
         tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) from (1, n).
-        zamo: (E, n) in the frame of zero angular momentum there from (1, n); what flat space has for it is at rest.
-        rest: the same for who is at rest there: static, or the ZAMO where that is asked for or nothing can rest.
+        zamo: (E, n) in the frame of zero angular momentum there from (1, n); what flat space has for it is at rest. None inside the horizon.
+        rest: the same for who is at rest there: static, or the ZAMO where that is asked for or nothing can rest. None inside the horizon.
     """
 
     kind: str
     tetrad: Float[np.ndarray, "4 4"]
-    zamo: Float[np.ndarray, "4 4"]
-    rest: Float[np.ndarray, "4 4"]
+    zamo: Float[np.ndarray, "4 4"] | None
+    rest: Float[np.ndarray, "4 4"] | None
 
 
 @dataclass(frozen=True)
@@ -187,6 +187,8 @@ def _falling(place: _Place, camera: Camera) -> Frame:
     matrix[1, 0], matrix[1, 1] = -energy * beta * math.sqrt(place.big_a) / place.r**2, -energy * math.sqrt(place.big_a) / place.r**2
     matrix[2, 2] = math.sqrt(place.sigma)
     matrix[3, 3] = place.ring
+    if place.r <= place.r_plus:
+        return Frame(camera.observer, matrix, None, None)
     return Frame(camera.observer, matrix, lorentz(np.array([-beta, 0.0, 0.0])), _at_rest(place, camera.observer))
 
 
@@ -206,3 +208,10 @@ def _refuse_fall(place: _Place, camera: Camera) -> None:
     if camera.distance > camera.fall_from:
         text = f"got {camera.fall_from:g} r_s for a camera at {camera.distance:g} r_s; a fall begins above: allowed is at least camera.distance"
         raise SceneError("camera.fall_from", text)
+
+
+def ingoing_lag(distance: float, spin: float) -> float:
+    """∫ a/Δ dr from `distance` (r_s) to infinity: by how much φ is ahead of the azimuth that stays along light that falls straight in. 0 inside the horizon."""
+    outer, inner = 2.0 * float(relativity.horizon_radius(spin)), 2.0 * float(relativity.inner_horizon_radius(spin))
+    r = 2.0 * distance
+    return spin / (outer - inner) * math.log1p((outer - inner) / (r - outer)) if math.isfinite(r) and r > outer else 0.0

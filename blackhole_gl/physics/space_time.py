@@ -13,6 +13,9 @@ from functools import cached_property, lru_cache
 from ..scene import Disk, Scene, catalogue
 from . import relativity
 
+_NEAR_CENTRE = 0.1  # r_s
+_NEAR_INNER_HORIZON = 1.02  # of its radius
+
 
 @dataclass(frozen=True)
 class SpaceTime:
@@ -24,6 +27,7 @@ class SpaceTime:
         observer_spin: a* of the metric that the observer sits in.
         horizon_spin: a* that horizon, photon orbits and innermost stable orbit are those of.
         has_hole: whether there is one; in a field there is not.
+        crosses_horizon: whether light is traced through the horizon, so that a camera that falls may be inside.
     """
 
     kind: str
@@ -31,6 +35,7 @@ class SpaceTime:
     observer_spin: float
     horizon_spin: float
     has_hole: bool = True
+    crosses_horizon: bool = False
 
     @cached_property
     def horizon_radius(self) -> float:
@@ -41,6 +46,11 @@ class SpaceTime:
     def inner_horizon_radius(self) -> float:
         """r_- in r_s."""
         return float(relativity.inner_horizon_radius(self.horizon_spin)) if self.has_hole else 0.0
+
+    @cached_property
+    def innermost_camera(self) -> float:
+        """Radius in r_s down to which a camera that falls is followed: before the centre tides are without end, and light's ways before the inner horizon."""
+        return max(_NEAR_CENTRE, _NEAR_INNER_HORIZON * self.inner_horizon_radius) if self.crosses_horizon else self.horizon_radius
 
     @cached_property
     def prograde_photon_orbit(self) -> float:
@@ -103,7 +113,7 @@ def ray_model(scene: Scene) -> catalogue.PlugIn:
 def space_time(scene: Scene) -> SpaceTime:
     """The space-time of `scene`'s ray model."""
     traits = ray_model(scene).traits
-    return _space_time(traits.space_time, traits.spins, scene.hole.spin, not is_field(scene))
+    return _space_time(traits.space_time, traits.spins, scene.hole.spin, not is_field(scene), traits.crosses_horizon)
 
 
 def is_field(scene: Scene) -> bool:
@@ -113,6 +123,7 @@ def is_field(scene: Scene) -> bool:
 
 
 @lru_cache(maxsize=256)
-def _space_time(kind: str, spins: bool, hole_spin: float, has_hole: bool) -> SpaceTime:
+def _space_time(kind: str, spins: bool, hole_spin: float, has_hole: bool, crosses_horizon: bool) -> SpaceTime:
     spin = hole_spin if spins else 0.0
-    return SpaceTime(kind, spin, observer_spin=spin if kind == "kerr" else 0.0, horizon_spin=0.0 if kind == "schwarzschild" else spin, has_hole=has_hole)
+    observer_spin, horizon_spin = spin if kind == "kerr" else 0.0, 0.0 if kind == "schwarzschild" else spin
+    return SpaceTime(kind, spin, observer_spin, horizon_spin, has_hole, crosses_horizon)

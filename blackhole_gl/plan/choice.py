@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ..physics.space_time import is_field, ray_model
+from ..physics.space_time import is_field, ray_model, space_time
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
 from ..scene.schema import number_of
@@ -269,6 +269,8 @@ def _not_measured(scene: Scene) -> str:
         return "" if _nearest_scenes(scene) else "a field of which nothing was measured: plain steps"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
+    if scene.camera.distance <= space_time(scene).horizon_radius:
+        return "from inside the horizon nothing was measured: the model that leads through it, with plain steps"
     if not measurements():
         return "no measurements are stored: plain steps"
     return ""

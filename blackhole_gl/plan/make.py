@@ -142,9 +142,16 @@ def _what_lens(scene: Scene) -> list[str]:
 
 
 def _meetings(scene: Scene) -> int:
-    """Meetings that are kept of a ray: one where whatever it meets first ends it; two where light comes through, as into and out of a medium."""
+    """Meetings that are kept of a ray: one where whatever it meets first ends it; two where light comes through, as into and out of a medium.
+
+    Raises:
+        SceneError: there are things or media, and the camera is inside the horizon.
+    """
     if met.is_empty(scene):
         return 0
+    if scene.camera.distance <= space_time(scene).horizon_radius:
+        text = f"got {scene.camera.distance:g} r_s, inside the horizon, from where things and media are not met: allowed is outside"
+        raise SceneError("camera.distance", text)
     return 2 if scene.media or not all(kind.traits.opaque for kind in met.kinds(scene, "thing")) else 1
 
 

@@ -83,6 +83,11 @@ class Plan:
         return 0.0 if self.frame == MERIDIAN else self.scene.camera.azimuth_deg
 
     @property
+    def is_inside(self) -> bool:
+        """Whether the camera is inside the horizon, or on it."""
+        return self.scene.camera.distance <= self.space_time.horizon_radius
+
+    @property
     def turn_deg(self) -> float:
         """Angle about the spin axis that takes this frame to the world."""
         return self.scene.camera.azimuth_deg - self.azimuth_deg

@@ -199,14 +199,22 @@ class KerrSchildSystem:
         return 0.5 * np.abs(state[ENERGY]) / state[W] ** 2
 
     def azimuth_lag(self, r: Array | float) -> Array | float:
-        """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays."""
+        """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays; 0 where there is no phi_BL."""
         gap = 2.0 * (self.r_plus - 1.0)
-        return self.spin * np.log1p(gap / (r - self.r_plus)) / gap
+        outside = np.where(r > self.r_plus, r - self.r_plus, np.inf)
+        return self.spin * np.log1p(gap / outside) / gap
 
     def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
-        """State (10, N) of photons at a finite place."""
+        """State (10, N) of photons at a finite place; inside the horizon its azimuth is that of the chart.
+
+        There all of them go outwards, and those that have P <= 0 at the horizon never come to it: they are put into the chart in which they count as captured.
+        """
         r, cos, sin = place.r, place.cos_theta, place.sin_theta
-        chart = np.where(photons.radial_rate > 0.0, -1.0, 1.0)
+        inside = r <= self.r_plus
+        leaves = photons.radial_rate > 0.0
+        if inside:
+            leaves &= 2.0 * self.r_plus * photons.energy > self.spin * sin * photons.l_over_sin
+        chart = np.where(leaves, -1.0, 1.0)
         a = chart * self.spin
         sigma = r * r + (self.spin * cos) ** 2
         root = np.abs(photons.radial_rate)

@@ -78,7 +78,7 @@ def view_of(twin: Twin, spin: float, place: Place, observer: str, directions: Ar
     """
     spin = spin if twin.spins else 0.0
     horizon = 0.0 if not twin.has_hole else 1.0 if twin.metric == "schwarzschild" else float(relativity.horizon_radius(spin))
-    if place.r <= horizon:
+    if place.r <= horizon and observer not in ("rain", "fall"):
         raise ValueError(f"the camera at r = {place.r} r_s lies within the horizon at {horizon} r_s")
     view = View(_rays(place, directions, screen), place, spin, observer, horizon, _normals(planes), orders, max(tolerance, _FINEST_TOLERANCE))
     if twin.metric == "kerr" and observer == "static" and not static_observer_exists(view.place_in_m, spin):

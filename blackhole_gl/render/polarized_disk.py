@@ -63,6 +63,8 @@ def why_not(plan: Plan) -> str:
     """Why the polarization of a picture is not known; empty where it is."""
     if not plan.scene.disk.enabled:
         return "No polarization: there is no disk."
+    if plan.is_inside:
+        return "No polarization: it is told by a frame of zero angular momentum, and inside the horizon there is none."
     if not met.is_empty(plan.scene):
         return "No polarization: it is that of the disk alone, and the scene has things or media."
     if plan.scene.polarization.emission == "synchrotron" and _field(plan.scene) == MagneticField(0.0, 0.0, 0.0):

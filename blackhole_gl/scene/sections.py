@@ -69,9 +69,9 @@ class Camera:
     """The observer and its picture."""
 
     distance: float = number(
-        20.0, 0.5001, 1e4, "r_s",
-        "Boyer–Lindquist (areal) radius of the camera, above the horizon: 1 without spin, down to 0.5 with. inf is a far observer with "
-        "parallel rays.",
+        20.0, 0.1, 1e4, "r_s",
+        "Boyer–Lindquist (areal) radius of the camera, above the horizon: 1 without spin, down to 0.5 with; of one that falls, inside of it, too. inf is a "
+        "far observer with parallel rays.",
         allow_infinity=True,
     )
     inclination_deg: float = number(80.0, 0.0, 180.0, "°", "Angle from the spin axis: 0 above the north pole, 90 in the disk's plane.")

@@ -31,6 +31,7 @@ class RayModelTraits:
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
         field: whether it bends rays in flat space by a field within a sphere, ``rays.field_radius``: then there is no hole.
+        crosses_horizon: whether a camera that falls may look out from inside the horizon: with CAMERA_FALLS set its rays are regular there.
         tilted_disk: whether all the crossings that it finds are those of common/disk_plane.glsl, so that the disk may be tilted.
     """
 
@@ -45,6 +46,7 @@ class RayModelTraits:
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
     field: bool = False
     tilted_disk: bool = False
+    crosses_horizon: bool = False
 
     @property
     def meets_things(self) -> bool:

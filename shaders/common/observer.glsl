@@ -38,9 +38,10 @@ vec3 pixel_direction(vec2 place) {
 }
 
 // E_observer/E_infinity of light that arrives from the local direction `local`, as it counts for colours (x) and for brightness (y): one number, unless the
-// observer's motion is not to show in both, or not to shift directions.
+// observer's motion is not to show in both, or not to shift directions. Next to none where the light has E ≤ 0: its λ and η, and with them all shifts, have no meaning.
 vec2 pixel_energies(vec3 local) {
-    float from_afar = max(observer_map[0].x + dot(vec3(observer_map[1].x, observer_map[2].x, observer_map[3].x), local), 1e-6);
+    float from_afar = observer_map[0].x + dot(vec3(observer_map[1].x, observer_map[2].x, observer_map[3].x), local);
+    if (from_afar < 1e-6) from_afar = 1e6;
 #if CAMERA_ABERRATION && CAMERA_DOPPLER_COLOUR && CAMERA_BEAMING
     return vec2(1.0 / from_afar);
 #else

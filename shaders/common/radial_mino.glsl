@@ -10,6 +10,9 @@ float ray_radius(State s) {
 
 // Inside hole_w_stop an inward ray has no turning point left; infinity is w = 0.
 int ray_fate(Orbit orbit, State s) {
+#if CAMERA_FALLS
+    if (orbit.energy == 0.0) return CAPTURED;
+#endif
     if (s.w <= 0.0) return ESCAPED;
     return s.w > hole_w_stop && s.w_rate > 0.0 ? CAPTURED : UNRESOLVED;
 }

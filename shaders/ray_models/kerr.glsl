@@ -12,6 +12,11 @@ spins = true
 second_order = true
 exact = true
 tilted_disk = true
+crosses_horizon = true
+
+[numbers.camera_lag]  # of the ingoing azimuth behind φ, where the camera is
+make = "blackhole_gl.physics.observer_frames:ingoing_lag"
+of = ["camera.distance", "hole.spin"]
 ---*/
 // w'' = c₂w + c₃w² + c₄w³,  n'' = −(K + 2a²n_z²)n + a²n_z ẑ,  twist' = −a w (2 − aλw)/((1 − w r₊)(1 − w r₋)).
 // Units M = 1. The world direction is n turned about the spin axis by the twist.
@@ -22,6 +27,9 @@ struct Orbit {
     float a_lambda;
     float drag;    // −a, or a for negative energy
     float scale;   // 1/√(K + 1), the Mino time of about one radian
+#if CAMERA_FALLS
+    float energy;  // its sign; 0 for light that has never been outside
+#endif
 };
 
 struct State {
@@ -38,11 +46,22 @@ Orbit ray_orbit(RayStart start) {
     float a = hole_spin;
     float k = dot(start.n_rate, start.n_rate) - a * a * start.n.z * start.n.z;
     float eta = k - start.lambda * start.lambda;
-    return Orbit(vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta), k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0));
+    vec3 c = vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta);
+#if CAMERA_FALLS
+    // From inside, all light leads out to the horizon if traced backwards. What has come in through it has P = (r² + a²)E − aL > 0 there.
+    bool came_in = start.w * hole_w_factors.x < 1.0 || start.energy * (2.0 * hole_w_factors.x - a * start.lambda) > 0.0;
+    return Orbit(c, k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0), came_in ? start.energy : 0.0);
+#else
+    return Orbit(c, k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0));
+#endif
 }
 
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
+#if CAMERA_FALLS
+    return State(start.w, start.w_rate, start.n, orbit.energy == 0.0 ? vec3(0.0) : start.n_rate, -camera_lag);  // what never was outside crosses nothing
+#else
     return State(start.w, start.w_rate, start.n, start.n_rate, 0.0);
+#endif
 }
 
 State ray_rhs(Orbit orbit, State s) {
@@ -58,6 +77,34 @@ State state_step(State s, float h, State k) {
     return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.n + h * k.n, s.n_rate + h * k.n_rate, s.twist);
 }
 
+#if CAMERA_FALLS
+// At the horizon φ and its twist have a pole. For a camera that falls the azimuth is φ~ = φ − ∫ a/Δ dr from r to infinity, which stays along light that falls straight in; with it
+// the pole cancels: (p + w')(p − w') = K_C w² Δ w², p = P w²/|E|. Outside, φ is had back in closed form.
+float ingoing_twist(Orbit orbit, float w, float w_rate) {
+    float a = hole_spin, p = orbit.energy * (1.0 + (a * a - orbit.a_lambda) * w * w);
+    vec2 factors = 1.0 - w * hole_w_factors;
+    float carter = orbit.k + a * a - 2.0 * orbit.a_lambda;
+    float share = w_rate < 0.0 ? carter * w * w / (p - w_rate) : (p + w_rate) / (factors.x * factors.y);
+    return a * (orbit.energy - share);
+}
+
+// w'² at w.
+float radial_square(Orbit orbit, float w) {
+    return 1.0 + w * w * (orbit.c.x + w * (2.0 / 3.0 * orbit.c.y + w * 0.5 * orbit.c.z));
+}
+
+// The twist that gives φ, but inside, where there is none.
+float whole_twist(State s) {
+    vec2 factors = 1.0 - s.w * hole_w_factors;
+    float lag = hole_spin / (hole_w_factors.x - hole_w_factors.y) * log(factors.y / max(factors.x, 1e-6));
+    return s.twist + (s.w > 0.0 && factors.x > 0.0 ? lag : 0.0);
+}
+#else
+float whole_twist(State s) {
+    return s.twist;
+}
+#endif
+
 // The twist drives nothing, so it is integrated after the step: Gauss with two points, at the cubic Hermite values of w there, and both
 // quotients over one denominator. One division a step, and of fourth order whatever the integrator.
 #define RAY_QUADRATURE ray_twist
@@ -65,6 +112,13 @@ void ray_twist(Orbit orbit, State a, float h, inout State b) {
     float middle = 0.5 * (a.w + b.w) + h * (1.0 / 12.0) * (a.w_rate - b.w_rate);
     float aside = 0.384900179 * (b.w - a.w) - 0.0481125224 * h * (a.w_rate + b.w_rate);  // 2/√27, 1/(4√27)
     vec2 w = vec2(middle - aside, middle + aside);
+#if CAMERA_FALLS
+    float slope = (b.w - a.w) / h, bend = 0.288675135 * (a.w_rate - b.w_rate);  // 1/√12
+    b.twist = a.twist + 0.5 * h * (ingoing_twist(orbit, w.x, slope + bend) + ingoing_twist(orbit, w.y, slope - bend));
+    // Deep inside w'² is so much larger than the 1 in it, by which rays part farther out, that its rounding would be all that is left of that.
+    if (b.w * hole_w_factors.x > 1.0 && b.w_rate < 0.0) b.w_rate = -sqrt(max(radial_square(orbit, b.w), 0.0));
+    return;
+#endif
     vec2 rate = w * (2.0 - orbit.a_lambda * w);
     vec2 factors = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
     b.twist = a.twist + 0.5 * h * orbit.drag * (rate.x * factors.y + rate.y * factors.x) / (factors.x * factors.y);
@@ -92,7 +146,7 @@ float ray_plain_step(Orbit orbit, State s) {
 
 void ray_finish(Orbit orbit, State s, inout Hits hits) {
     vec3 n = s.n - (s.w / s.w_rate) * s.n_rate;  // what the root left over
-    hits.direction = normalize(vec3(rotate(n.xy, cos_sin(s.twist)), n.z));
+    hits.direction = normalize(vec3(rotate(n.xy, cos_sin(whole_twist(s))), n.z));
 }
 
 // w'² = R(w) = 1 + c₂w² + ⅔c₃w³ + ½c₄w⁴, against the sizes of its terms; n stays on the sphere.
@@ -118,11 +172,11 @@ float ray_elevation(State s) {
 
 Path ray_path(Orbit orbit, State s) {
     vec2 factors = 1.0 - s.w * hole_w_factors;
-    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(s.twist, orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)));
+    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(whole_twist(s), orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {
-    return Momentum(s.w_rate, vec3(rotate(s.n_rate.xy, cos_sin(s.twist)), s.n_rate.z));
+    return Momentum(s.w_rate, vec3(rotate(s.n_rate.xy, cos_sin(whole_twist(s))), s.n_rate.z));
 }
 
 float ray_affine_rate(Orbit orbit, State s) {
@@ -130,5 +184,5 @@ float ray_affine_rate(Orbit orbit, State s) {
 }
 
 vec2 ray_plane_point(State s) {
-    return rotate(s.n.xy, cos_sin(s.twist)) * inversesqrt(4.0 * s.w * s.w * dot(s.n.xy, s.n.xy));
+    return rotate(s.n.xy, cos_sin(whole_twist(s))) * inversesqrt(4.0 * s.w * s.w * dot(s.n.xy, s.n.xy));
 }

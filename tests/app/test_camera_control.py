@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from blackhole_gl.app.camera_control import Motion, Pose, horizon_radius, limited, pose_of, values_of
+from blackhole_gl.app.camera_control import Motion, Pose, floor_radius, limited, pose_of, values_of
 from blackhole_gl.app.commands import Hand, advance
 from blackhole_gl.app.state import WindowState
 from blackhole_gl.scene import Scene, fields
@@ -62,7 +62,7 @@ def test_nothing_leaves_its_range(moves, spin, far):
         advance(state, Hand((right, down), (down, right), wheel=wheel), dt)  # with_values refuses what is out of range
     assert 0.0 <= state.scene.camera.inclination_deg <= 180.0
     if not far:
-        assert state.scene.camera.distance > horizon_radius(state.scene)
+        assert state.scene.camera.distance > floor_radius(state.scene)
     else:
         assert math.isinf(state.scene.camera.distance)
 

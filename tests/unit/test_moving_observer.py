@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.physics import observer, polarization
+from blackhole_gl.physics import observer, polarization, relativity
 from blackhole_gl.plan import plan
 from blackhole_gl.reference import observers as twin
 from blackhole_gl.scene import Scene, SceneError
@@ -23,8 +23,15 @@ CAMERAS = [
     ("rain", 0.0, 1.001, 80.0, (0.0, 0.0, 0.0)),
     ("rain", 0.998, 0.8, 30.0, (0.5, -0.5, 0.3)),
     ("fall", 0.0, 4.0, 80.0, (0.0, 0.0, 0.0)),
+    ("rain", 0.9, 0.5, 60.0, (0.0, 0.0, 0.0)),
+    ("rain", 0.0, 0.1, 80.0, (0.3, 0.2, -0.4)),
+    ("fall", 0.0, 0.3, 80.0, (0.0, 0.0, 0.0)),
     ("fall", 0.0, 25.0, 80.0, (0.0, 0.3, -0.4)),
 ]
+
+
+def _is_outside(camera: tuple) -> bool:
+    return camera[2] > float(relativity.horizon_radius(camera[1]))
 
 
 def scene_of(kind: str = "static", velocity: tuple[float, float, float] = (0.0, 0.0, 0.0), **values: object) -> Scene:
@@ -83,7 +90,7 @@ def test_who_fell_from_far_away_sees_what_rain_sees() -> None:
     np.testing.assert_allclose(at_rest.observer_map, seen_by(("static", 0.0, 3.0, 60.0, (0.0, 0.0, 0.0))).observer_map, atol=1e-15)
 
 
-@pytest.mark.parametrize("camera", CAMERAS, ids=str)
+@pytest.mark.parametrize("camera", [camera for camera in CAMERAS if _is_outside(camera)], ids=str)
 def test_the_hole_is_where_straight_inwards_is_seen(camera: tuple) -> None:
     seen = seen_by(camera)
     assert np.linalg.norm(seen.hole) == pytest.approx(1.0)
@@ -113,7 +120,7 @@ def test_a_switch_takes_its_part_of_the_motion_away() -> None:
     np.testing.assert_allclose(unmoved.energies(there), on.energies(local), rtol=1e-12)
 
 
-@pytest.mark.parametrize("camera", [camera for camera in CAMERAS if camera[0] != "fall"], ids=str)
+@pytest.mark.parametrize("camera", [camera for camera in CAMERAS if camera[0] != "fall" and _is_outside(camera)], ids=str)
 def test_polarization_is_carried_into_the_moving_frame_as_a_vector(camera: tuple) -> None:
     """The vector that a ZAMO sees, by Lorentz's transformation, less a multiple of the light's own."""
     kind, spin, distance, inclination, velocity = camera
@@ -135,6 +142,11 @@ REFUSED = [
     (scene_of("circular", hole__spin=0.5), "camera.observer: got circular at an inclination of 80°.*allowed is 90°"),
     (scene_of("fall", hole__spin=0.5), "camera.observer: got fall.*allowed there is rain"),
     (scene_of("fall", camera__fall_from=10.0), "camera.fall_from: got 10 r_s for a camera at 20 r_s.*allowed is at least camera.distance"),
+    (scene_of(camera__distance=0.9), "camera.distance: got 0.9 r_s; at spin 0 the horizon is at 1 r_s and the camera must be outside it: nothing rests"),
+    (scene_of("circular", camera__distance=0.9), "camera.distance: got 0.9 r_s.*where only rain and fall are"),
+    (scene_of("rain", camera__distance=0.9, rays__model="schwarzschild"), "camera.distance: got 0.9 r_s.*does not lead through it.*kerr and auto"),
+    (scene_of("rain", camera__distance=0.28, hole__spin=0.9), "camera.distance: got 0.28 r_s.*followed down to 0.287696 r_s"),
+    (scene_of("rain", camera__distance=0.5, camera__beaming=False), "camera.beaming: got false; inside the horizon.*allowed is true"),
     (scene_of("rain", rays__lensing=False), "camera.observer: got rain; in flat space.*allowed are static and zamo"),
     (scene_of("circular", rays__model="post_newtonian"), "camera.observer: got circular; in flat space"),
     (scene_of(velocity=(0.0, 0.0, 0.1), camera__distance=math.inf), "camera.velocity_right: got 0.1; a camera at infinity has parallel rays"),
@@ -152,3 +164,21 @@ def test_the_thin_lens_far_away_is_for_cameras_at_rest() -> None:
     values = {"rays.model": "auto", "disk.enabled": False, "camera.distance": 5000.0}
     assert plan(scene_of().with_values(values)).model.key == "screen_lens"
     assert plan(scene_of(velocity=(0.0, 0.0, 0.5)).with_values(values)).model.key != "screen_lens"
+
+
+def test_things_are_not_met_from_inside_and_a_sentence_says_so() -> None:
+    with pytest.raises(SceneError, match="camera.distance: got 0.5 r_s, inside the horizon.*allowed is outside"):
+        plan(scene_of("rain", camera__distance=0.5).with_values({"things.moon.kind": "sphere"}))
+
+
+def test_the_plan_takes_the_model_that_leads_through_the_horizon() -> None:
+    made = plan(scene_of("rain", camera__distance=0.5).with_values({"rays.model": "auto"}))
+    assert made.model.key == "kerr" and made.is_inside
+    assert "inside the horizon nothing was measured" in " ".join(made.reasons)
+
+
+def test_a_fall_is_followed_to_near_the_centre_or_the_inner_horizon() -> None:
+    assert observer.least_distance(scene_of("rain")) == 0.1
+    assert observer.least_distance(scene_of("rain", hole__spin=0.9)) == pytest.approx(1.02 * float(relativity.inner_horizon_radius(0.9)))
+    assert observer.least_distance(scene_of("static", hole__spin=0.9)) == float(relativity.horizon_radius(0.9))
+    assert observer.least_distance(scene_of("rain", rays__model="schwarzschild_table")) == 1.0
