@@ -30,6 +30,14 @@ class Space:
         return circling.turning_metric(2.0 * np.sqrt(r2), np.maximum(ring2 / r2, 1e-24), self.spin, self.mass)
 
 
+class Momentum(NamedTuple):
+    """Covariant momentum of the photon that arrives, E = 1 and M = 1, in Boyer-Lindquist's coordinates; each (...)."""
+
+    k_r: Array
+    k_theta: Array
+    lam: Array
+
+
 class Matter(NamedTuple):
     """What is at a place: emission and absorption on 1 r_s in each colour, broadcastable to (C, ...); shift = E_infinity/E_matter (...)."""
 
@@ -62,8 +70,8 @@ class Medium(Protocol):
     def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         """How far one may go from x, in it or not, without overlooking it or what changes in it; in r_s."""
 
-    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
-        """What is at x, for light with L_z/E = `lam` in M."""
+    def matter(self, x: Float[Array, " 3 *points"], momentum: Momentum, space: Space) -> Matter:
+        """What is at x, for light of that momentum there."""
 
 
 @dataclass(frozen=True)
@@ -93,10 +101,10 @@ class Ball:
     def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return np.maximum(np.abs(self._distance(x) - self.radius), 0.5 * self.radius)
 
-    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
+    def matter(self, x: Float[Array, " 3 *points"], momentum: Momentum, space: Space) -> Matter:
         still = circling.with_angular_velocity(0.0, space.turning(x))
         absorption = _colours(self.absorption, x)
-        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(still, lam))
+        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(still, momentum.lam))
 
     def _distance(self, x: Array) -> Array:
         offset = np.moveaxis(x, 0, -1) - np.array(self.centre)
@@ -134,11 +142,11 @@ class AnalyticPlasma:
         thickness = r / self.flatness
         return np.minimum(0.5 * r + 0.2 * self.size, np.maximum(thickness, 0.5 * np.abs(x[2])))
 
-    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
+    def matter(self, x: Float[Array, " 3 *points"], momentum: Momentum, space: Space) -> Matter:
         r2 = (x * x).sum(axis=0)
         density = np.exp(-0.5 * (r2 / self.size**2 + self.flatness**2 * x[2] ** 2 / r2))
         ring = 2.0 * np.sqrt(x[0] ** 2 + x[1] ** 2)
-        shift = circling.shift(circling.with_angular_momentum(self.turning * ring**1.5 / (1.0 + ring), space.turning(x)), lam)
+        shift = circling.shift(circling.with_angular_momentum(self.turning * ring**1.5 / (1.0 + ring), space.turning(x)), momentum.lam)
         return Matter((density * self.emissivity * shift**self.index)[None], (density * self.depth * shift ** (2.5 + self.index))[None], shift)
 
 
@@ -171,12 +179,12 @@ class Doughnut:
     def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return 0.05 * np.sqrt((x * x).sum(axis=0)) + 0.05
 
-    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
+    def matter(self, x: Float[Array, " 3 *points"], momentum: Momentum, space: Space) -> Matter:
         r, sine2 = self._where(x)
         density = self.torus.density(r, sine2)
         absorption = density * _colours(self.absorption, x)
         turning = circling.with_angular_momentum(self.torus.momentum, space.turning(x))
-        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(turning, lam))
+        return Matter(absorption * _colours(self.source, x), absorption, circling.shift(turning, momentum.lam))
 
     @staticmethod
     def _where(x: Array) -> tuple[Array, Array]:
@@ -211,12 +219,12 @@ class Slab:
     def stride(self, x: Float[Array, " 3 *points"]) -> Float[Array, "*points"]:
         return np.maximum(0.5 * self.height, 0.7 * (np.abs(x[2]) - self.height))
 
-    def matter(self, x: Float[Array, " 3 *points"], lam: Float[Array, "*points"], space: Space) -> Matter:
+    def matter(self, x: Float[Array, " 3 *points"], momentum: Momentum, space: Space) -> Matter:
         ring = np.hypot(x[0], x[1])
         share = (ring - self.inner) / (self.outer - self.inner)
         absorption = self.absorption * (1.0 - share) * np.exp(-0.5 * (x[2] / self.height) ** 2)
         turning = circling.with_angular_velocity(1.0 / ((2.0 * ring) ** 1.5 + space.spin), space.turning(x))
-        return Matter((absorption * self.source * (self.inner / ring) ** 3)[None], absorption[None], circling.shift(turning, lam))
+        return Matter((absorption * self.source * (self.inner / ring) ** 3)[None], absorption[None], circling.shift(turning, momentum.lam))
 
 
 def _colours(values: tuple[float, ...], x: Array) -> Array:

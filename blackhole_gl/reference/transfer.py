@@ -26,7 +26,7 @@ from ..shapes import Bool, Float, Int
 from .events import LightRays, LightSystem
 from .hits import CAPTURED, ESCAPED, UNRESOLVED
 from .integrator import locate_zero, march, rate_along
-from .media import Medium, Space
+from .media import Medium, Momentum, Space
 from .observers import Place
 from .registry import Twin, View, twin_of
 from .tracing import view_of
@@ -131,7 +131,8 @@ class _WithMedium:
     def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         own = state[self._own]
         inverse_radius, n = self._system.place(own)
-        matter = self._medium.matter(n / inverse_radius, state[self._lam], self._space)
+        momentum = Momentum(*self._system.momentum(own), state[self._lam])
+        matter = self._medium.matter(n / inverse_radius, momentum, self._space)
         within = state[self.within] > 0.0
         rate = self._system.affine_rate(own)
         gained = np.exp(-state[self.depth]) * (matter.shift ** (self._medium.power - 1.0) * rate * matter.emission)

@@ -12,6 +12,7 @@ import pytest
 
 from blackhole_gl.physics.moving_matter import emitted_shift
 from blackhole_gl.physics.observer import observe
+from blackhole_gl.reference import jet, transfer
 from blackhole_gl.render.frame import Renderer
 from blackhole_gl.render.recording import pixel_direction
 from blackhole_gl.scene import Scene, catalogue, presets
@@ -290,3 +291,31 @@ def test_it_is_told_as_art() -> None:
     kinds = catalogue.plug_ins("medium")
     assert kinds["jet"].traits.phenomenological and all(item.art for item in kinds["jet"].parameters.values())
     assert not any(item.art for item in kinds["ball"].parameters.values())
+
+
+TWIN_CASES = {
+    "cone, clear": (Jet(outer_radius=12.0, depth=0.0), 0.9, 60.0),
+    "paraboloid, dim": (Jet(outer_radius=14.0, depth=0.6, collimation=1.0, opening_deg=50.0, pitch_deg=-40.0, speed=0.8), 0.9, 35.0),
+    "cone, no spin": (Jet(outer_radius=12.0, thickness=0.25, depth=0.3, speed=0.9), 0.0, 75.0),
+}
+
+
+@pytest.mark.parametrize("size", [(6, 4), pytest.param((36, 24), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", [name if name == "paraboloid, dim" else pytest.param(name, marks=pytest.mark.slow) for name in TWIN_CASES])
+def test_its_picture_is_the_twins(renderer: Renderer, name: str, size: tuple[int, int]) -> None:
+    """Seen from far away: of the pixels 99 % within 1 % of the peak."""
+    made, spin, inclination = TWIN_CASES[name]
+    values = {"hole.spin": spin, "camera.distance": math.inf, "camera.field_m": 40.0, "camera.inclination_deg": inclination, "disk.enabled": False}
+    values |= {"sky.enabled": False, "post.bloom": False, "rays.edges": 1, "rays.model": "kerr", "rays.tolerance": 0.02, "media.jet.kind": "jet"}
+    scene = presets.load(["kerr"], {**values, **made.set(), "media.jet.colour": (1.0, 1.0, 1.0)})
+    renderer.render(scene, 0.0, size)
+    found = renderer.radiance()[..., 0]
+    width, height = size
+    rays = np.array([observe(scene).look @ pixel_direction(scene, size, (x + 0.5, height - y - 0.5)) for y in range(height) for x in range(width)])
+    parameters = {key: value for key, value in vars(made).items() if not key.startswith(("knot", "strand"))}
+    seen = transfer.gather("kerr", jet.Jet(**parameters), spin=spin, distance=math.inf, inclination_deg=inclination,
+                           azimuth_deg=scene.camera.azimuth_deg, screen=np.stack([rays[:, 2], -rays[:, 1]], axis=-1), tolerance=1e-5)
+    expected = seen.intensity.reshape(height, width)
+    off = np.abs(found - expected) / expected.max()
+    print(f"{name}: peak {expected.max():.3g}, 99 % within {np.quantile(off, 0.99):.1e} of it, worst {off.max():.1e}")
+    assert expected.max() > 0.05 and np.quantile(off, 0.99) < 0.01

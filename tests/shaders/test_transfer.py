@@ -48,7 +48,7 @@ def test_fluxes_are_those_of_the_code_comparison(renderer: Renderer) -> None:
     np.testing.assert_allclose(np.array(fluxes[1:]) / fluxes[0], RATIOS, rtol=0.01)
 
 
-@pytest.mark.parametrize("name", ["gold_3", "gold_5"])
+@pytest.mark.parametrize("name", ["gold_3", "gold_5", *(pytest.param(name, marks=pytest.mark.slow) for name in ("gold_1", "gold_2", "gold_4"))])
 def test_a_flux_has_converged(renderer: Renderer, name: str) -> None:
     """Ten times below what codes differ by."""
     found = flux.measured(renderer, presets.load([name]), 0.0, (64, 64), unsaid)
