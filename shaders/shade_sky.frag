@@ -18,9 +18,15 @@
 //       finer       1, or side of a pixel shown over the pixel's. Below 1 the points that can be seen singly with the footprint of a pixel shown are left
 //                   out;
 //       stars_near  how many of them are within 0.72 pixels of the middle;
-//     vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star)
+//     float sky_kernel(float away2)
+//       answer      how a point's light falls off (common/star_light.glsl);
+//     SkyStars sky_stars(vec3 direction, vec3 right, vec3 up, float finer)
 //       right, up   of a pixel shown;
-//       answer      the light of point n < SKY_STARS of those near, radiance × sr, 0 where it is not there;
+//       answer      a struct of the sky's own: those near, `count` of them at most, 1 to SKY_STARS;
+//     SkyStars sky_stars_at(SkyStars stars, vec3 direction, vec3 right, vec3 up, float finer)
+//       answer      the same, as bright as they are seen singly in that footprint;
+//     vec3 sky_star(SkyStars stars, int n, float energy, out vec4 star)
+//       answer      the light of point n < count, radiance × sr, 0 where it is not there;
 //       star        unit vector to it, and its radius in rad.
 #defines
 #blocks

@@ -5,6 +5,7 @@
 #include "common/tone_table.glsl"
 #include "common/tone.glsl"
 #include "common/developed.glsl"
+#slot sky
 
 uniform sampler2D radiance;  // of the coarse picture, filtered linearly
 uniform vec2 target_origin;  // lower left pixel of the picture in the target
@@ -19,7 +20,7 @@ out vec4 colour;
 
 void main() {
     vec2 pixel = gl_FragCoord.xy - target_origin, d = pixel - place;
-    float fall = max(1.0 - (stretch.x * d.x * d.x + 2.0 * stretch.y * d.x * d.y + stretch.z * d.y * d.y), 0.0), square = fall * fall; // the kernel of common/star_light.glsl
-    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb + glowing + square * square * brightest;
+    float fall = sky_kernel(stretch.x * d.x * d.x + 2.0 * stretch.y * d.x * d.y + stretch.z * d.y * d.y);
+    vec3 light = textureLod(radiance, pixel * target_texel, 0.0).rgb + glowing + fall * brightest;
     colour = fall > 0.0 ? vec4(developed(light), 1.0) : vec4(0.0);
 }

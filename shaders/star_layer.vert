@@ -124,8 +124,10 @@ void main() {
     vec4 shown = gram_of(finer.x * middle.right, finer.y * middle.up);
     Star first = Star(0, own.direction, 0.0), second = first;
     vec4 found;
-    for (int n = 0; n < SKY_STARS; ++n) {
-        vec3 light = sky_star(n, own.direction, finer.x * x.once, finer.y * y.once, energy.x, found);
+    SkyStars stars = sky_stars(own.direction, finer.x * x.once, finer.y * y.once, min(finer.x, finer.y));
+    int n = 0;
+    do {
+        vec3 light = sky_star(stars, n, energy.x, found);
         vec2 away = offset_of(found.xyz, middle);
         vec3 image = spread_of(shown, found.w);
         bool near = 4.0 * longest(image) > LONG * LONG ? reaches(away, image) : all(lessThan(abs(away), vec2(NEAR)));
@@ -133,7 +135,8 @@ void main() {
         bool brighter = star.power > first.power;
         if (brighter || star.power > second.power) second = brighter ? first : star;
         if (brighter) first = star;
-    }
+        ++n;
+    } while (n < stars.count);
     Star star = entry < firsts ? first : second;
 
     bool pieces = 4.0 * longest(spread_of(shown, found.w)) > LONG * LONG; // all stars are of one size
@@ -151,13 +154,13 @@ void main() {
 
     at.right *= finer.x;
     at.up *= finer.y;
-    vec3 light = sky_beaming(energy) * sky_star(star.n, at.direction, at.right, at.up, energy.x, found); // once more: how much of it is a haze goes by the slopes
+    vec3 light = sky_beaming(energy) * sky_star(sky_stars_at(stars, at.direction, at.right, at.up, min(finer.x, finer.y)), star.n, energy.x, found);
     vec4 gram = gram_of(at.right, at.up);
     vec3 spread = spread_of(gram, found.w);
     float spread_det = max(spread.x * spread.z - spread.y * spread.y, 1.0);
     place = (vec2(here) + 0.5 + offset) / finer;
     stretch = 0.25 * inverse_of(spread, spread_det);
-    brightest = light * abs(texelFetch(radiance, here, 0).a) / (0.8 * 3.1415927 * sqrt(spread_det * gram.w));
+    brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
     vec2 part = (pieces ? vec2(here) + 0.5 : place * finer) / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
     glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;

@@ -57,10 +57,10 @@ class Panel:
         wanted = self._filter.strip().lower()
         for section, items in self._active_rows(state.scene).items():
             if shown := [item for item in items if _matches(item, wanted)]:
-                is_open = _section(section, shown, state, forced_open=bool(wanted))
+                is_open = _section(section, shown, state, thumbnails, forced_open=bool(wanted))
                 if is_open and section == "rays":
                     _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM, _COST)
-        self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state), forced_open=bool(wanted))
+        self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state, thumbnails), forced_open=bool(wanted))
 
     def shown_fields(self, scene: Scene) -> list[Field]:
         """The fields that `scene` has rows for, whatever the filter."""
@@ -126,7 +126,7 @@ def _sections() -> Mapping[str, list[Field]]:
     return {section: sorted(items, key=lambda item: (_plug_in_of(item) is not None, item.art)) for section, items in found.items()}
 
 
-def _section(section: str, items: list[Field], state: WindowState, *, forced_open: bool) -> bool:
+def _section(section: str, items: list[Field], state: WindowState, thumbnails: Thumbnails, *, forced_open: bool) -> bool:
     """Draws one section; True when it is open."""
     if forced_open:
         imgui.set_next_item_open(True)
@@ -137,11 +137,11 @@ def _section(section: str, items: list[Field], state: WindowState, *, forced_ope
     wrapped_tooltip(sections.SECTIONS[section].__doc__ or "")
     if not is_open:
         return False
-    _table(f"values of {section}", items, state)
+    _table(f"values of {section}", items, state, thumbnails)
     return True
 
 
-def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
+def _table(name: str, items: Iterable[Field], state: WindowState, thumbnails: Thumbnails) -> None:
     """A row for each of `items`, art under that heading and those of a plug-in under its name."""
     if not imgui.begin_table(name, 2):
         return
@@ -151,7 +151,8 @@ def _table(name: str, items: Iterable[Field], state: WindowState) -> None:
         before, heading = heading, _heading(item)
         if heading is not None and heading != before:
             _subheading(*heading)
-        widgets.row(range_in(scene, replace(item, default=state.in_force(item))), scene.get(item.key), state.change, plan.unfit_options(item.key, scene))
+        ranged = range_in(scene, replace(item, default=state.in_force(item)))
+        widgets.row(ranged, scene.get(item.key), state.change, plan.unfit_options(item.key, scene), thumbnails.draw)
         sought.mark(state, item.key)
     imgui.end_table()
 

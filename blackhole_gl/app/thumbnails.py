@@ -1,4 +1,4 @@
-"""Small pictures of the shipped presets, made by tools/make_thumbnails.py, as textures that imgui draws."""
+"""Small pictures of the shipped presets and skies, made by tools/make_thumbnails.py, as textures that imgui draws."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Thumbnails:
         self._textures: dict[str, moderngl.Texture | None] = {}
 
     def draw(self, name: str, height_em: float = _TOOLTIP_EM) -> bool:
-        """Draws that of the preset called `name`. False where there is none, as of a user's own."""
+        """Draws that of the preset called `name`, or of the sky ``skies/NAME``. False where there is none, as of a user's own."""
         if name not in self._textures:
             self._textures[name] = self._load(name)
         texture = self._textures[name]

@@ -11,8 +11,11 @@ from imgui_bundle import hello_imgui, imgui
 from ..scene import catalogue, fields, instances
 from ..scene.schema import Field, Value, describe, number_of
 from . import list_rows, text_fields, theme
+from .thumbnails import ROW_EM
 
 Change = Callable[[Mapping[str, Value]], None]
+DrawPicture = Callable[[str, float], bool]
+"""Draws the small picture of that name, so many em high; false where there is none."""
 
 _SHOWN_DIGITS = 4
 _LOG_RATIO = 200.0  # a range that spans more than this is walked in equal ratios
@@ -44,15 +47,15 @@ def departs(item: Field, value: Value) -> bool:
     return item.physical is not None and value != item.physical
 
 
-def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = MappingProxyType({})) -> None:
-    """Draws the row of `item` in a table of two columns; an edit calls `change`. `unfit`: options that do not fit now, and why."""
+def row(item: Field, value: Value, change: Change, unfit: Mapping[str, str] = MappingProxyType({}), picture: DrawPicture | None = None) -> None:
+    """Draws the row of `item` in a table of two columns; an edit calls `change`. `unfit`: options that do not fit now, and why; `picture`: draws theirs."""
     imgui.table_next_row()
     imgui.table_next_column()
     _mark(item, value, change)
     _label(item, value, change)
     imgui.table_next_column()
     imgui.set_next_item_width(-1.0)
-    edited = _widget(item, value, unfit)
+    edited = _widget(item, value, unfit, picture)
     _tooltip(item)
     _menu(item, f"widget {item.key}", change)
     if edited is not None and edited != value:
@@ -219,12 +222,12 @@ def _text(item: Field, value: str) -> str | None:
     return text_fields.edited(f"##{item.key}", value, "a file" if item.kind == "file" else "")
 
 
-def _widget(item: Field, value: Value, unfit: Mapping[str, str] = MappingProxyType({})) -> Value | None:
-    """Draws the widget of `item`; what the user made of `value`, or None. `unfit`: see `row`."""
+def _widget(item: Field, value: Value, unfit: Mapping[str, str] = MappingProxyType({}), picture: DrawPicture | None = None) -> Value | None:
+    """Draws the widget of `item`; what the user made of `value`, or None. `unfit`, `picture`: see `row`."""
     if isinstance(value, bool):
         return _switch(item, value)
     if isinstance(value, str):
-        return _choice(item, value, unfit) if item.kind == "choice" else _text(item, value)
+        return _choice(item, value, unfit, picture) if item.kind == "choice" else _text(item, value)
     if isinstance(value, tuple):
         return list_rows.edited(item, value, _widget, label_of)
     if isinstance(value, (int, float)):
@@ -239,7 +242,7 @@ def _is_combo_reset() -> bool:
     return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left) and imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
 
 
-def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
+def _choice(item: Field, value: str, unfit: Mapping[str, str], picture: DrawPicture | None) -> str | None:
     slot = _slot_of(item.key)
     plug_ins = catalogue.plug_ins(slot) if slot else {}
     names = {option: plug_ins[option].label if option in plug_ins else _option(option) for option in item.options}
@@ -247,9 +250,18 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str]) -> str | None:
     if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
         for option, name in names.items():
             grey = imgui.SelectableFlags_.disabled.value if option in unfit else 0
-            clicked, _ = imgui.selectable(f"{name}##{option}", option == value, grey)
-            if clicked:
+            height, on_picture = 0.0, False
+            if slot and picture and picture(f"{catalogue.SLOTS[slot].folder}/{option}", ROW_EM):
+                on_picture = imgui.is_item_clicked() and not grey
+                imgui.same_line()
+                height = ROW_EM * hello_imgui.em_size()
+            imgui.push_style_var(imgui.StyleVar_.selectable_text_align, (0.0, 0.5))
+            clicked, _ = imgui.selectable(f"{name}##{option}", option == value, grey, (0.0, height))
+            imgui.pop_style_var()
+            if clicked or on_picture:
                 picked = option
+            if on_picture:
+                imgui.close_current_popup()
             if option in plug_ins and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip.value | imgui.HoveredFlags_.allow_when_disabled.value):
                 imgui.set_tooltip(unfit.get(option, plug_ins[option].summary))
         imgui.end_combo()

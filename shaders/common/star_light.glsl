@@ -2,6 +2,7 @@
 //
 // A star of flux F has radiance F·K/A: A the solid angle of sky in the footprint, K a kernel of integral 1 over it. So its
 // light, summed over pixels, is F times the lens's magnification, wherever the star falls between the pixels.
+// The kernel is the sky's own, sky_kernel, of the square of the distance in half kernels; its integral over the disc of radius 2 is π.
 
 #include "common/colour.glsl"
 
@@ -40,12 +41,6 @@ SkySpot sky_spot(vec3 centre, vec3 right, vec3 up, float size) {
     float half_trace = 0.5 * (c.x + c.z);
     spot.reach2 = half_trace + sqrt(max(half_trace * half_trace - det, 0.0));
     return spot;
-}
-
-// A star's kernel, of the square of its distance in half kernels. Its integral over the disc of radius 2 is π.
-float star_fall(float away2) {
-    float fall = max(1.0 - away2, 0.0), square = fall * fall;
-    return 1.25 * square * square; // of the powers the one whose sum over a grid of pixels changes least as the star moves: by 0.6 %
 }
 
 // How far from a pixel's middle a star counts as near, in half kernels, where pixels are shown `finer`.

@@ -78,15 +78,33 @@ const float CATALOGUE_REACH = 0.003;      // rad, of kernels in the finest grid
 const float CATALOGUE_STAR = 1.2e-4;      // radiance × sr of a star of Hp = 0
 const float CATALOGUE_GALAXY = 0.06;      // radiance of its brightest part
 
+// Of such powers the one whose sum over a grid of pixels changes least as the star moves: by 0.6 %.
+float sky_kernel(float away2) {
+    float fall = max(1.0 - away2, 0.0), square = fall * fall;
+    return 1.25 * square * square;
+}
+
 // The stars of a cell.
 struct StarList {
     float first, end;  // entries
+    float grid;
     float fading;      // how much of those is left that the next grid does not list
 };
 
-// Of how wide a kernel the finest grid's is, in octaves.
-float catalogue_level(SkySpot spot) {
-    return 0.5 * log2(max(spot.reach2, 1e-14) * (4.0 / (CATALOGUE_REACH * CATALOGUE_REACH)));
+struct SkyStars {
+    int count;
+    StarList list;
+};
+
+// How much wider than the finest grid's a kernel is, in octaves. In a picture that is shown enlarged six times as wide a one counts: some 1,000 stars of a
+// whole picture are then drawn apart and not 20,000, and all that may lie in a coarse pixel are listed.
+float catalogue_level(SkySpot spot, float finer) {
+    float wider = finer < 1.0 ? 6.0 : 1.0;
+    return 0.5 * log2(max(spot.reach2, 1e-14) * wider * wider * (4.0 / (CATALOGUE_REACH * CATALOGUE_REACH)));
+}
+
+float list_fading(float grid, float level) {
+    return clamp(1.0 + grid - level, 0.0, 1.0);
 }
 
 StarList star_list(SkyPlace at, float level) {
@@ -95,7 +113,7 @@ StarList star_list(SkyPlace at, float level) {
     vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5) + vec2(at.face * cells, 2.0 * (float(CATALOGUE_CELLS) - cells));
     float number = textureLod(catalogue_cells, cell / vec2(textureSize(catalogue_cells, 0)), 0.0).x;
     float first = floor(number * 0.0625);
-    return StarList(first, first + number - 16.0 * first, clamp(1.0 + grid - level, 0.0, 1.0));
+    return StarList(first, first + number - 16.0 * first, grid, list_fading(grid, level));
 }
 
 vec4 list_entry(float entry, vec2 texel) {
@@ -117,7 +135,7 @@ StarLight star_light(SkySpot spot, StarList list, float room) {
         vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
         float away2 = dot(d, d);
         float single = entry < list.end ? star_flux(star, list) : 0.0;
-        float flux = single * star_fall(away2);
+        float flux = single * sky_kernel(away2);
         stars.flux += flux;
         stars.heat += flux * star_kelvin(star.w);
         stars.near += single * (room - away2) > 0.0 ? 1.0 : 0.0;
@@ -143,13 +161,21 @@ vec2 sky_shift(float energy) {
     return vec2(energy, boost * boost);
 }
 
-vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star) {
-    vec2 shift = sky_shift(energy);
+SkyStars sky_stars(vec3 direction, vec3 right, vec3 up, float finer) {
     SkySpot spot = sky_spot(direction, right, up, sky_catalogue_star_size);
-    StarList list = star_list(sky_place(unturned(catalogue_attitude, direction)), catalogue_level(spot));
-    float entry = list.first + float(n);
-    star = list_entry(entry, 1.0 / vec2(textureSize(catalogue_entries, 0)));
-    float flux = entry < list.end ? star_flux(star, list) : 0.0;
+    StarList list = star_list(sky_place(unturned(catalogue_attitude, direction)), catalogue_level(spot, finer));
+    return SkyStars(int(list.end - list.first), list);
+}
+
+SkyStars sky_stars_at(SkyStars stars, vec3 direction, vec3 right, vec3 up, float finer) {
+    stars.list.fading = list_fading(stars.list.grid, catalogue_level(sky_spot(direction, right, up, sky_catalogue_star_size), finer));
+    return stars;
+}
+
+vec3 sky_star(SkyStars stars, int n, float energy, out vec4 star) {
+    vec2 shift = sky_shift(energy);
+    star = list_entry(stars.list.first + float(n), 1.0 / vec2(textureSize(catalogue_entries, 0)));
+    float flux = star_flux(star, stars.list);
     vec3 light = blackbody_colour(star_kelvin(star.w) * shift.x) * (flux * CATALOGUE_STAR * sky_catalogue_star_brightness * shift.y);
     vec4 back = vec4(-catalogue_attitude.xyz, catalogue_attitude.w);
     star = vec4(unturned(back, star.xyz), max(sky_catalogue_star_size, 3.2e-7)); // as in sky_spot
@@ -160,7 +186,7 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer
     vec2 shift = sky_shift(energy);
     vec4 attitude = catalogue_attitude;
     SkySpot spot = sky_spot(unturned(attitude, direction), finer * unturned(attitude, right), finer * unturned(attitude, up), sky_catalogue_star_size);
-    float level = catalogue_level(spot);
+    float level = catalogue_level(spot, finer);
     SkyPlace at = sky_place(spot.centre);
     float room = star_room(spot, finer, sky_catalogue_star_size);
     StarLight stars = star_light(spot, star_list(at, level), room * room);

@@ -55,6 +55,11 @@ const float STAR_MARGIN = 0.16; // of a cell
 const vec2 STAR_TEXEL = 1.0 / vec2(360.0, 117.0); // of star_cells
 const float STAR_UNIT = 4.0e-6; // radiance × sr of a star of flux 1
 
+float sky_kernel(float away2) {
+    float fall = max(1.0 - away2, 0.0);
+    return fall * fall * fall;
+}
+
 // How many stars there are towards d against the galactic plane: 1 in the plane, a quarter far from it.
 float star_richness(vec3 d) {
     float height = dot(d, GALAXY_POLE);
@@ -97,7 +102,7 @@ void add_star_grid(inout StarLight light, StarGrid grid, SkySpot spot, SkyPlace 
     vec2 d = vec2(dot(star.xyz, spot.across), dot(star.xyz, spot.along));
     float away2 = dot(d, d);
     float single = star.w - haze * star.w;
-    float flux = single * star_fall(away2);
+    float flux = single * sky_kernel(away2);
     light.flux += flux;
     light.heat += flux * star_kelvin(star.w);
     light.haze += haze * (mean_flux * grid.cells * grid.cells);
@@ -138,13 +143,26 @@ vec2 sky_shift(float energy) {
     return vec2(energy, boost * boost);
 }
 
-vec3 sky_star(int n, vec3 direction, vec3 right, vec3 up, float energy, out vec4 star) {
-    vec2 shift = sky_shift(energy);
-    SkySpot spot = sky_spot(direction, right, up, sky_procedural_star_size);
+struct SkyStars {
+    int count;
+    SkyPlace at;
+    float spread;
+};
+
+SkyStars sky_stars(vec3 direction, vec3 right, vec3 up, float finer) {
     SkyPlace at = sky_place(direction);
+    return SkyStars(4, at, sky_spread(sky_spot(direction, right, up, sky_procedural_star_size), at));
+}
+
+SkyStars sky_stars_at(SkyStars stars, vec3 direction, vec3 right, vec3 up, float finer) {
+    return SkyStars(stars.count, stars.at, sky_stars(direction, right, up, finer).spread);
+}
+
+vec3 sky_star(SkyStars stars, int n, float energy, out vec4 star) {
+    vec2 shift = sky_shift(energy);
     StarGrid grid = STAR_GRIDS[n];
-    star = grid_star(grid, at);
-    float flux = star.w - star.w * grid_haze(grid, sky_spread(spot, at));
+    star = grid_star(grid, stars.at);
+    float flux = star.w - star.w * grid_haze(grid, stars.spread);
     vec3 light = blackbody_colour(star_kelvin(star.w) * shift.x) * (flux * STAR_UNIT * sky_procedural_star_brightness * shift.y);
     star.w = max(sky_procedural_star_size, 3.2e-7); // as in sky_spot
     return light;

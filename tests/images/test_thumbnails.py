@@ -1,4 +1,4 @@
-"""The panel's small pictures: small, and of what their presets show now. `make thumbnails` makes them anew, and for presets that have none yet."""
+"""The panel's small pictures: small, and of what their presets and skies show now. `make thumbnails` makes them anew, and those that are missing."""
 
 import numpy as np
 import pytest
@@ -9,18 +9,19 @@ from blackhole_gl.resources import assets_dir
 from tools import make_thumbnails
 
 FOLDER = assets_dir() / "thumbnails"
-NAMES = sorted(path.stem for path in FOLDER.iterdir())
+SCENES = make_thumbnails.scenes()
+NAMES = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.rglob("*.jpg"))
 # Grey levels of 255, mean: JPEG takes 1 to 2 of them; two looks that differ least are 4 apart.
 MEAN = 3.0
 
 
-def test_they_are_of_presets_that_there_are_and_small() -> None:
-    assert len(NAMES) > 20 and set(NAMES) <= {info.name for info in make_thumbnails.pictured()}
-    assert sum(path.stat().st_size for path in FOLDER.iterdir()) < 300_000
+def test_they_are_of_presets_and_skies_that_there_are_and_small() -> None:
+    assert len(NAMES) > 25 and set(NAMES) <= set(SCENES)
+    assert sum(path.stat().st_size for path in FOLDER.rglob("*.jpg")) < 330_000
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_thumbnail_shows_its_preset(renderer: Renderer, name: str) -> None:
     kept = np.asarray(Image.open(FOLDER / f"{name}.jpg"), dtype=float)
-    difference = np.abs(kept - make_thumbnails.draw(renderer, name)).mean()
+    difference = np.abs(kept - make_thumbnails.draw(renderer, SCENES[name])).mean()
     assert difference < MEAN, f"{difference:.1f} grey levels: run `make thumbnails`"
