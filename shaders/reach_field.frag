@@ -1,6 +1,6 @@
 #version 330 core
 // Coarse rays in a field → what becomes of each, and to which balls in space it comes as near as the rays beside it are away (common/reach.glsl): the straight way
-// in, reach_steps steps within the field's sphere, the straight way out. It ends on nothing.
+// in, reach_steps steps within the field's sphere, of which it is looked at reach_stride at once, the straight way out. It ends on nothing.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -15,7 +15,7 @@
 #include "common/march.glsl"
 #include "common/reach.glsl"
 
-uniform int reach_steps;
+uniform int reach_steps, reach_stride;
 uniform float reach_step; // pixels from ray to ray
 
 out uint node;
@@ -41,18 +41,22 @@ void main() {
     float margin = reach_margin(here);
     Reached reached = balls_near(camera, here, vec2(0.0, margin));
     int fate = orbit.bends > 0.0 ? UNRESOLVED : PASSED_BY;
-    for (int k = 0; k < reach_steps; ++k) {
-        march_once(orbit, m);
-        Path old = path;
-        path = ray_path(orbit, m.next);
-        bool under_way = fate == UNRESOLVED, leaves = m.fate == ESCAPED;
+    for (int k = 0; k < reach_steps; k += reach_stride) {
+        bool was_under_way = fate == UNRESOLVED;
         Spot before = here;
-        if (under_way) here = spot_of(leaves ? curve_path(Curve(old, path, m.h), ray_end(orbit, m.s, m.next, m.h)) : path);
+        int done = 0;
+        do {
+            march_once(orbit, m);
+            Path old = path;
+            path = ray_path(orbit, m.next);
+            bool under_way = fate == UNRESOLVED, leaves = m.fate == ESCAPED;
+            if (under_way) here = spot_of(leaves ? curve_path(Curve(old, path, m.h), ray_end(orbit, m.s, m.next, m.h)) : path);
+            fate = under_way && leaves ? ESCAPED : fate;
+        } while (++done < reach_stride);
         float margin_before = margin;
         margin = reach_margin(here);
         Reached found = balls_near(before, here, vec2(margin_before, margin));
-        if (under_way) reached = reached_on(reached, found);
-        fate = under_way && leaves ? ESCAPED : fate;
+        if (was_under_way) reached = reached_on(reached, found);
     }
     Spot end = straight_end(here);
     Reached found = balls_near(here, end, vec2(margin, reach_margin(end)));

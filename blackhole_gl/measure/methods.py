@@ -27,6 +27,7 @@ FINEST_REFINED = 0.1
 _FIRST_TRIAL = {"rays.step_angle": 0.4, "rays.step_length": 0.5}
 
 _BEST = ("rk4", "dopri5", "nystrom5")
+_BEST_OF_PLACES = ("nystrom4", "nystrom5")  # where forces depend on places alone
 
 # Enough that no step is ever stretched: what is measured is what was asked for.
 MAX_STEPS = 8192
@@ -152,6 +153,8 @@ def _methods_of(model: PlugIn, scene: Scene, whole: bool) -> Iterator[Combinatio
 
 def _methods_of_field(model: str, whole: bool) -> list[Combination]:
     found = list(_fitting(model, catalogue.keys("integrator") if whole else _BEST, ["fixed"]))
+    own = _own_control(catalogue.plug_ins("ray_model")[model])
+    found += _fitting(model, _BEST_OF_PLACES, [key for key in own if key != "fixed"])
     found += _fitting(model, catalogue.keys("integrator") if whole else _BEST, _pair_controls())
     return found + list(_fitting(model, ["rk4"], ["doubling"]))
 

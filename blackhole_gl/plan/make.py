@@ -23,7 +23,7 @@ _REACH_TURNS = 0.5
 _WINDING = 1.5
 
 # More steps would cost as much as what they spare.
-_MOST_REACH_STEPS = 64
+_MOST_REACH_STEPS, _MOST_FIELD_STEPS = 64, 256
 
 # Beyond this radius (r_s, times the gravity strength) an outward ray is finished in closed form; see common/central_orbit.glsl.
 # Models whose closed form is a first-order one state a larger march_bound in their header.
@@ -278,9 +278,13 @@ def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
         return 0
     if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
         return 0
-    needed = _WINDING * 2.0 * scene.rays.field_radius / scene.rays.step_length if model.traits.field else _steps_needed(scene, model, control, _REACH_TURNS)
+    if model.traits.field:
+        winding = _WINDING if control.key == "fixed" else 0.5 * _WINDING  # steps that grow with how slowly the field changes are fewer
+        needed = winding * 2.0 * scene.rays.field_radius / scene.rays.step_length
+    else:
+        needed = _steps_needed(scene, model, control, _REACH_TURNS)
     steps = math.ceil(needed) + 2
-    return steps if steps <= _MOST_REACH_STEPS else 0
+    return steps if steps <= (_MOST_FIELD_STEPS if model.traits.field else _MOST_REACH_STEPS) else 0
 
 
 def _steps_needed(scene: Scene, model: PlugIn, control: PlugIn, turns: float = SPARE_TURNS) -> float:

@@ -33,6 +33,9 @@ ALONE = {"ORDERS": 0, "MEETINGS": 0}
 _INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
+# Ways in a field are held against balls in pieces as long as that, r_s, which are cubics.
+_PIECE = 1.2
+
 FINER = {"REACH_FINER": 1}
 """The switch of the program that tells of cells what is first told of squares."""
 
@@ -118,6 +121,8 @@ class Reach:
         filled = fills[seen] if np.count_nonzero(seen) == len(few) else np.zeros(len(few), int)
         table = {"reach_balls": self._table(few, filled)}
         nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
+        if inputs.plan.model.traits.field:
+            nodes.set(reach_stride=_stride(inputs.plan))
         found: moderngl.Texture | None = None
         for step, level in made.levels.items():
             if found is not None:
@@ -177,6 +182,7 @@ class Reach:
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
         texels = np.zeros((2, MOST_BALLS, 4), np.float32)
         texels[0, : len(balls)], texels[1, : len(balls), 0] = balls, fills
+        texels[0, :, 3] *= np.where(texels[1, :, 0] > 0.0, -1.0, 1.0)
         self._balls.write(texels.tobytes())
         return self._balls
 
@@ -207,6 +213,11 @@ def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
 def _shell(plan: Plan) -> tuple[float, float]:
     least = plan.scene.rays.field_radius if plan.model.traits.field else _OUTERMOST * plan.scene.hole.gravity_strength
     return _INNERMOST * plan.space_time.horizon_radius, max(least, plan.reach)
+
+
+def _stride(plan: Plan) -> int:
+    """Steps in a field that make one piece: where they are longer than the plan's, it bends the less."""
+    return max(1, int(_PIECE / plan.step_length))
 
 
 def gathered(balls: Float[np.ndarray, "balls 4"], most: int) -> Float[np.ndarray, "balls 4"]:

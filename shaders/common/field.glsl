@@ -2,6 +2,8 @@
 // beyond it. There is no hole: nothing is captured, and spin means nothing. A model gives
 //     vec3 field_acceleration(vec3 x, vec3 v)   f; x in r_s, v = dx/dσ. It is asked for a step's length beyond the sphere too
 // FIELD_SPEED: names a function float (vec3 x), |v| of a ray that begins or enters at x; without it 1
+// FIELD_LENGTH: names a function float (vec3 x), how long a step may be at x where the plan's is for where the field changes fastest, or at 3 r_s from its centre,
+//     over that; without it 1. It is smooth, so that neighbours take like steps
 // FIELD_ENERGY: names a function float (vec3 x, vec3 v) that is the same all along a ray, for the view of conserved quantities
 //
 // The march is of the way within the sphere alone. It begins where a ray comes in, or at a camera inside, and ends where the ray goes out; the straight
@@ -131,6 +133,15 @@ float ray_slowdown(State s) {
 
 float ray_plain_step(Orbit orbit, State s) {
     return plan_step_length * ray_slowdown(s);
+}
+
+#define RAY_SCALED_STEP field_scaled_step
+float field_scaled_step(Orbit orbit, State s) {
+#ifdef FIELD_LENGTH
+    return ray_plain_step(orbit, s) * FIELD_LENGTH(s.x);
+#else
+    return ray_plain_step(orbit, s);
+#endif
 }
 
 float ray_longest_step(Orbit orbit, State s) {

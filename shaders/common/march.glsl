@@ -24,6 +24,7 @@
 // RAY_RECHARTS: State ray_recharted(State a, State b)  `b`, or the same place in coordinates that suit the way from `a` better.
 // RAY_FIRST_ORDER: places are not moved by rates of their own: there is no state_drift and no state_push.
 // RAY_QUADRATURE: names a function (Orbit, State a, float h, inout State b) that completes what follows from a step but drives nothing.
+// RAY_SCALED_STEP: names a function float (Orbit, State), the plain step by how fast what bends the ray changes there, for step controls that ask for it.
 // RAY_MEETS_BEYOND: ray_init and ray_finish also meet what lies before and after the march, and begin at the camera.
 // RAY_STEPS_SHORT: many steps pass the same thing, so that it pays to remember how far things are from the last that was looked at.
 // RAY_DRIFT: names a function float (Orbit, State)   how far a quantity that should stay is from where it should be, relative to its

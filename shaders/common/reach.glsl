@@ -7,7 +7,8 @@
 // A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
 #include "common/reach_node.glsl"
 
-uniform sampler2D reach_balls; // a column each: centre and radius in r_s, in the plan's frame; 1 + kind + 32·index of the thing that fills it, 0 where none does
+// A column each: centre in r_s, in the plan's frame, and radius, negative where a thing fills it; 1 + kind + 32·index of that thing, else 0.
+uniform sampler2D reach_balls;
 uniform int reach_count;
 uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second
 
@@ -29,10 +30,11 @@ vec3 across(vec3 d, vec3 along) {
     return d - dot(d, along) * along;
 }
 
-// How far the rays about this one are from it at a spot, across the way. To be called by all of a quad.
+// How far the rays nearest to this one of four are from it at a spot, across the way: those in the middle between the four are the farthest, half a diagonal away,
+// and a tenth is for what is not linear. To be called by all of a quad.
 float reach_margin(Spot spot) {
-    vec3 along = normalize(spot.rate);
-    return max(length(across(dFdx(spot.x), along)), length(across(dFdy(spot.x), along)));
+    vec3 along = normalize(spot.rate), right = dFdx(spot.x), up = dFdy(spot.x);
+    return 0.55 * max(length(across(right + up, along)), length(across(right - up, along)));
 }
 
 // Slope of a way against its chord, along the unit vector `along`.
@@ -51,13 +53,13 @@ Reached balls_near(Spot a, Spot b, vec2 margin) {
     Reached found = NONE_REACHED;
     for (int i = 0; i < reach_count; ++i) {
         vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
+        float radius = abs(ball.w);
         vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);
         vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
-        float room = rough + mix(margin.x, margin.y, min(u + ball.w / size, 1.0)), far = length(away);
-        found.near |= far <= ball.w + room ? 1u << i : 0u;
-        bool fills = texelFetch(reach_balls, ivec2(i, 1), 0).x > 0.0;
-        found.hidden = fills && far + room < ball.w ? uint(i + 1) : found.hidden;
+        float room = rough + mix(margin.x, margin.y, min(u + radius / size, 1.0)), far = length(away);
+        found.near |= far <= radius + room ? 1u << i : 0u;
+        found.hidden = far + room < -ball.w ? uint(i + 1) : found.hidden;
     }
     return found;
 }

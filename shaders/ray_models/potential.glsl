@@ -6,7 +6,7 @@ slot = "ray_model"
 rank = 22
 kind = "differential"
 marches_in = "field"
-step_control = "doubling"
+step_control = "radius"
 space_time = "flat"
 spins = false
 second_order = true
@@ -54,6 +54,11 @@ vec3 field_acceleration(vec3 x, vec3 v) {
     float pull = 1.0 / (r * r);
 #endif
     return (-rays_potential_strength * pull / r) * from;
+}
+
+#define FIELD_LENGTH field_length
+float field_length(vec3 x) {
+    return max(softened(from_centre(x)), 0.2) / 3.0;
 }
 
 #define FIELD_ENERGY field_energy

@@ -6,7 +6,7 @@ slot = "ray_model"
 rank = 23
 kind = "differential"
 marches_in = "field"
-step_control = "fixed"
+step_control = "radius"
 space_time = "flat"
 spins = false
 second_order = true
@@ -68,6 +68,15 @@ vec4 refraction(vec3 x) {
 vec3 field_acceleration(vec3 x, vec3 v) {
     return refraction(x).xyz;
 }
+
+#if RAYS_REFRACTION_MEDIUM_EXPLOSION
+// 1 as far as the shell wanders, and as many more as x is widths away from there.
+#define FIELD_LENGTH field_length
+float field_length(vec3 x) {
+    float beside = abs(length(x) - rays_refraction_size) - rays_refraction_size * rays_refraction_raggedness;
+    return 1.0 + max(beside, 0.0) / rays_refraction_width;
+}
+#endif
 
 #define FIELD_SPEED field_speed
 float field_speed(vec3 x) {
