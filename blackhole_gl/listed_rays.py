@@ -71,7 +71,7 @@ class TracedRays:
         lambda_: (N,) L_z/E in M of the photon that arrives; NaN where the shader keeps no crossings, and with them no λ.
         crossing_theta: (N, 3) polar angle in radians.
         crossing_k_r, crossing_k_theta: (N, 3) the covariant momentum of the photon that arrives, in Boyer–Lindquist coordinates and units
-            of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric, and through the shader in a scene with media.
+            of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric.
         energy: (N,) E_infinity/E_camera of the photon that arrives: the inverse of the shift that the camera's place and motion give to the sky's light.
     """
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, instance_numbers, instances, kept_light, pixel_values, supersampling, views
+from . import diagnostics, instance_numbers, instances, kept_light, listed, pixel_values, supersampling, views
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -33,9 +33,6 @@ TILE = 512
 
 # About a tile, drawn with it and left out: whether a pixel is at an edge depends on those beside it. Even, as the tiles are.
 _MARGIN = 2
-
-# Listed rays are told by angles from the hole, not from the middle of the picture.
-_AT_THE_HOLE = {"camera.yaw_deg": 0.0, "camera.pitch_deg": 0.0, "camera.roll_deg": 0.0}
 
 
 @dataclass(frozen=True)
@@ -253,11 +250,8 @@ class Renderer:
         Returns:
             Their hits; the exact g of each kept crossing, float32 (N, 3), 0 where there is none; the plan used.
         """
-        plan = make_plan(scene.with_values(_AT_THE_HOLE), keep_crossings=True)
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        hits = self.hit_map.trace_listed(plan, directions)
-        shifts = self.hit_map.emission_shifts(directions)
-        return hits, shifts, plan
+        return listed.trace(self.hit_map, scene, directions)
 
     def read_rgb8(self) -> np.ndarray:
         """The own picture as uint8 (height, width, 3), top row first.
