@@ -84,6 +84,7 @@ SHOTS = (
     Shot("cloudy_slab", ("cloudy_slab",), time=24.0),
     Shot("jet", ("jet",)),
     Shot("real_sky", ("real_sky",)),
+    Shot("constellations", ("real_sky",), {"sky.catalogue.constellations": True, "sky.catalogue.yaw_deg": 96.0, "camera.inclination_deg": 85.0}),
     *(Shot(f"gold_{number}", (f"gold_{number}",)) for number in range(1, 6)),
 )
 

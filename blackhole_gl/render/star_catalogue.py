@@ -61,11 +61,26 @@ def hipparcos() -> Stars:
         FileNotFoundError: it is missing from assets/.
     """
     with np.load(assets_dir() / "hipparcos.npz") as stored:
-        ra, dec = stored["ra"] * _STEP, stored["dec"] * _STEP
+        direction = _towards(stored["ra"], stored["dec"])
         magnitude, colour = stored["millimag"] * 1e-3, stored["colour"] * 1e-3
     colour = np.where(colour < -9.0, _UNKNOWN_COLOUR, np.clip(colour, *_COLOURS))
-    direction = np.stack([np.cos(dec) * np.cos(ra), np.cos(dec) * np.sin(ra), np.sin(dec)], axis=-1)
     return Stars(direction, 10.0 ** (-0.4 * magnitude), kelvin_of(colour)).sorted()
+
+
+def numbered() -> tuple[Array, Array]:
+    """The stars' numbers in Hipparcos (n,), and unit vectors (n, 3).
+
+    Raises:
+        FileNotFoundError: it is missing from assets/.
+    """
+    with np.load(assets_dir() / "hipparcos.npz") as stored:
+        return stored["hip"], _towards(stored["ra"], stored["dec"])
+
+
+def _towards(ra: Array, dec: Array) -> Array:
+    """Unit vectors of places as the asset has them."""
+    level = np.cos(dec * _STEP)
+    return np.stack([level * np.cos(ra * _STEP), level * np.sin(ra * _STEP), np.sin(dec * _STEP)], axis=-1)
 
 
 def kelvin_of(colour: Array) -> Array:

@@ -24,6 +24,16 @@ range = [0.0, 0.01]
 unit = "rad"
 help = "Angular radius of a star where pixels are smaller than that: under high magnification stars become arcs of bounded brightness."
 
+[parameters.constellations]
+default = false
+help = "Lines of the constellations' figures over it, bent as its light is."
+
+[parameters.line_brightness]
+default = 1.0
+range = [0.0, 20.0]
+unit = "×"
+help = "Of these lines."
+
 [parameters.yaw_deg]
 default = 0.0
 range = [-360.0, 360.0]
@@ -56,6 +66,13 @@ make = "blackhole_gl.render.star_index:entries"
 [tables.catalogue_haze]
 make = "blackhole_gl.render.star_index:haze"
 filter = "mipmap"
+
+[tables.constellation_cells]
+make = "blackhole_gl.render.constellations:cells"
+constants = "blackhole_gl.render.constellations:CONSTANTS"
+
+[tables.constellation_lines]
+make = "blackhole_gl.render.constellations:lines"
 
 [numbers.catalogue_attitude]
 make = "blackhole_gl.render.sky_attitude:attitude"
@@ -152,6 +169,35 @@ vec4 galaxy_and_haze(SkyPlace at, float level) {
     return light * vec4(vec3(CATALOGUE_GALAXY * sky_catalogue_galaxy_brightness), 1.0);
 }
 
+#if SKY_CATALOGUE_CONSTELLATIONS
+uniform sampler2D constellation_cells, constellation_lines; // blackhole_gl/render/constellations.py
+
+const vec3 CONSTELLATION_COLOUR = vec3(0.03, 0.05, 0.09);
+const float CONSTELLATION_REACH = 0.012; // rad beside a line, in which it is listed: wider pixels show none
+
+// How much of the pixel a line covers, 1.1 pixels wide however the lens draws it out. `right` and `up` as `centre` in the sky's own axes.
+float constellation_line(SkyPlace at, vec3 centre, vec3 right, vec3 up) {
+    float cells = float(CONSTELLATION_CELLS);
+    vec2 cell = min(at.place * (0.5 * cells) + 0.5 * cells, cells - 0.5) + vec2(at.face * cells, 0.0);
+    float number = textureLod(constellation_cells, cell / vec2(textureSize(constellation_cells, 0)), 0.0).x;
+    float line = floor(number * 0.0625), end = line + number - 16.0 * line;
+    float row = 1.0 / float(textureSize(constellation_lines, 0).y);
+    float cover = 0.0;
+    do {
+        float y = (line + 0.5) * row;
+        vec3 pole = textureLod(constellation_lines, vec2(0.25, y), 0.0).xyz;
+        vec4 middle = textureLod(constellation_lines, vec2(0.75, y), 0.0);
+        vec2 slope = vec2(dot(pole, right), dot(pole, up));
+        float width = sqrt(max(dot(slope, slope), 1e-16)), away = abs(dot(pole, centre)) / width;
+        bool on = line < end && dot(middle.xyz, centre) > middle.w;
+        float seen = clamp(2.0 - width * (2.0 / CONSTELLATION_REACH), 0.0, 1.0);
+        cover = max(cover, on ? seen * clamp(1.1 - away, 0.0, 1.0) : 0.0);
+        line += 1.0;
+    } while (line < end);
+    return cover;
+}
+#endif
+
 // The observer's shift in colour, and as a factor of the light.
 vec2 sky_shift(float energy) {
 #if !SKY_CATALOGUE_FREQUENCY_SHIFT
@@ -185,7 +231,8 @@ vec3 sky_star(SkyStars stars, int n, float energy, out vec4 star) {
 vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer, out float stars_near) {
     vec2 shift = sky_shift(energy);
     vec4 attitude = catalogue_attitude;
-    SkySpot spot = sky_spot(unturned(attitude, direction), finer * unturned(attitude, right), finer * unturned(attitude, up), sky_catalogue_star_size);
+    vec3 across = unturned(attitude, right), along = unturned(attitude, up);
+    SkySpot spot = sky_spot(unturned(attitude, direction), finer * across, finer * along, sky_catalogue_star_size);
     float level = catalogue_level(spot, finer);
     SkyPlace at = sky_place(spot.centre);
     float room = star_room(spot, finer, sky_catalogue_star_size);
@@ -194,5 +241,8 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy, float finer
     if (finer < 1.0) stars.flux = stars.heat = 0.0;
     vec4 behind = galaxy_and_haze(at, level);
     stars.haze = behind.a;
+#if SKY_CATALOGUE_CONSTELLATIONS
+    behind.rgb += constellation_line(at, spot.centre, across, along) * sky_catalogue_line_brightness * CONSTELLATION_COLOUR;
+#endif
     return (star_radiance(stars, spot.kernel, shift.x) * (CATALOGUE_STAR * sky_catalogue_star_brightness) + behind.rgb) * shift.y;
 }
