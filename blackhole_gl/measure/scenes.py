@@ -154,6 +154,6 @@ def view_of(scene: Scene) -> tuple[object, ...]:
 
 
 def is_charted(scene: Scene) -> bool:
-    """Whether the chart measures `scene`: a hole as it is, and nothing to meet but a disk in its equator, as the float64 reference knows no more."""
+    """Whether the chart measures `scene`: a hole as it is, a camera at rest, and nothing to meet but a disk in its equator, as the reference knows no more."""
     plain = met.is_empty(scene) and not scene.disk.tilt_deg and scene.sky.model != "picture"  # which a hole bends as it does any sky
-    return is_physical(scene) and plain and scene.rays.lensing and not is_field(scene)
+    return is_physical(scene) and not observer.is_moving(scene.camera) and plain and scene.rays.lensing and not is_field(scene)

@@ -104,7 +104,7 @@ def test_negative_spin_mirrors_the_hits(renderer: Renderer, name: str, quality: 
     spin = scene.hole.spin
     renderer.render(scene, 0.0, SIZE)
     hits = renderer.hits()
-    renderer.render(scene.with_values({"hole.spin": -spin, "camera.roll_deg": -scene.camera.roll_deg}), 0.0, SIZE)
+    renderer.render(scene.with_values({"hole.spin": -spin, "camera.roll_deg": -scene.camera.roll_deg, "camera.yaw_deg": -scene.camera.yaw_deg}), 0.0, SIZE)
     mirrored = renderer.hits()
     flip = np.array([1.0, -1.0, 1.0])
     np.testing.assert_array_equal(mirrored.fate[:, ::-1], hits.fate)
