@@ -63,7 +63,7 @@ void main() {
     const bool things = false;
 #endif
 #if CELLS_FILLED
-    bool filled = texelFetch(solid, ivec2(gl_FragCoord.xy), 0).r > 0.0;
+    bool filled = texelFetch(solid, corner, 0).r > 0.0;
 #else
     const bool filled = false;
 #endif

@@ -37,8 +37,9 @@ bool row_of(ivec2 first, ivec2 step, int thing, out vec3 slope, out vec3 error) 
 }
 
 void main() {
-    ivec2 cell = ivec2(gl_FragCoord.xy), corner = cell + GRID_MARGIN;
-    int ball = int(255.0 * texelFetch(reached, cell, 0).r + 0.5) - 1;
+    ivec2 corner = ivec2(gl_FragCoord.xy), cell = corner - GRID_MARGIN;
+    bool is_cell = cell == clamp(cell, ivec2(0), textureSize(reached, 0) - 1);
+    int ball = is_cell ? int(255.0 * texelFetch(reached, cell, 0).r + 0.5) - 1 : -1;
     int thing = ball >= 0 && ball < 24 ? int(texelFetch(reach_balls, ivec2(ball, 1), 0).x + 0.5) : 0;
     bool alike = thing > 0;
     vec3 slope[4], error[4];

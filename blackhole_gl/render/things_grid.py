@@ -12,11 +12,13 @@ import moderngl
 
 from ..plan import GRID_MARGIN, REFINE_STEP
 from . import hit_texels
-from .classes import THINGS, drawn
+from .classes import THINGS, Where, drawn
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .reach import Reached
 from .target import Target
+
+_MARKED = Where(">", 0.5)  # by shaders/refine_marks.frag
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,21 +29,24 @@ class _Made:
         made_for: that size and number.
         rays: the coarse rays' hits.
         bends: second differences between the places that they meet things at, along x and along y.
-        solid: of each cell, R8: 1 where it is filled.
+        solid: of the cell right and above of each node, R8: 1 where it is filled.
+        marks: draws the nodes' depth, by which rays, bends and solid are drawn where a cell may be filled.
     """
 
     made_for: tuple[tuple[int, int], int]
     rays: Target
     bends: Target
     solid: Target
+    depth: moderngl.Texture
+    marks: moderngl.Framebuffer
 
     def release(self) -> None:
-        for item in (self.rays, self.bends, self.solid):
+        for item in (self.rays, self.bends, self.solid, self.marks, self.depth):
             item.release()
 
 
 class ThingsGrid:
-    """Draws shaders/refine_things.frag, refine_bends.frag and refine_fill.frag."""
+    """Draws shaders/refine_marks.frag, refine_things.frag, refine_bends.frag and refine_fill.frag."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
@@ -49,23 +54,39 @@ class ThingsGrid:
         self._filled: moderngl.Framebuffer | None = None
 
     def trace(self, rays: Draw, reached: Reached) -> moderngl.Texture:
-        """R8, 1 for each cell that one thing fills, of the picture of the trace pass `rays`, which meets things; `reached` says what cells may show."""
+        """R8, 1 for the lower left node of each cell that one thing fills, of the picture of the trace pass `rays`, which meets things; `reached` says what
+        cells may show."""
         inputs = rays.inputs
         made = self._targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
         first = -GRID_MARGIN * REFINE_STEP
         rays.set(ray_grid=(REFINE_STEP, first, first))
-        made.rays.frame.use()
-        rays.draw()
+        made.solid.frame.clear()  # and the depth
+        self._mark(inputs, made, reached)
+        self._draw_marked(rays, made.rays)
         cells = self._programs.get("refine_things.frag", inputs)
         cells.sample({"things_met": self._met, "reached": reached.cells, "reach_balls": reached.balls})
         cells.set(refine_px=inputs.plan.refine_px)
-        made.solid.frame.use()
-        cells.draw()
+        self._draw_marked(cells, made.solid)
         bends = self._programs.get("refine_bends.frag", inputs)
         bends.sample({"things_met": self._met})
-        made.bends.frame.use()
-        bends.draw()
+        self._draw_marked(bends, made.bends)
         return made.solid.texture
+
+    def _mark(self, inputs: FrameInputs, made: _Made, reached: Reached) -> None:
+        marks = self._programs.get("refine_marks.frag", inputs)
+        marks.sample({"reached": reached.cells})
+        made.marks.use()
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"  # always
+        marks.draw()
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+
+    def _draw_marked(self, draw: Draw, target: Target) -> None:
+        target.frame.use()
+        target.frame.depth_mask = False
+        with drawn(self._ctx, draw, _MARKED):
+            draw.draw()
 
     def fill(self, inputs: FrameInputs, textures: list[moderngl.Texture], classes: moderngl.Texture) -> None:
         """Writes what they meet into `textures`, of the picture's size, for the pixels that show things by `classes`: right where their cell is filled."""
@@ -115,11 +136,14 @@ class ThingsGrid:
     def _make(self, size: tuple[int, int], count: int) -> _Made:
         cells = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
         nodes = cells[0] + 1 + 2 * GRID_MARGIN, cells[1] + 1 + 2 * GRID_MARGIN
+        depth = self._ctx.depth_texture(nodes)
         return _Made(
             (size, count),
-            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)]),
-            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f2") for _ in range(2)]),
-            solid=Target.of(self._ctx, [self._texture(cells, 1, "f1")]),
+            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)], depth),
+            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f2") for _ in range(2)], depth),
+            solid=Target.of(self._ctx, [self._texture(nodes, 1, "f1")], depth),
+            depth=depth,
+            marks=self._ctx.framebuffer([], depth),
         )
 
     def _texture(self, size: tuple[int, int], components: int, dtype: str) -> moderngl.Texture:

@@ -351,13 +351,11 @@ Hits trace_ray(RayStart start) {
 #ifndef RAY_MEETS_BEYOND
     if (place.w > 0.0) meet_at_start(place.xyz / place.w, ray_momentum(orbit, m.s), hits);
 #endif
-    // From event to event, whatever it is. Between them steps are stopped for where something may be met.
+    // From step to step in which something may be met, and between them from crossing to crossing: what is dear to look at stands outside of the loop over these.
     bool met = hits.fate == MET;
     float end;
     do {
-        Found found;
-        Way way;
-        bool pauses;
+        bool between;
 #if MARCH_REPEATS
         do {
 #else
@@ -365,17 +363,21 @@ Hits trace_ray(RayStart start) {
 #endif
             march_on(orbit, ORDERS > 0, m);
             end = march_end(orbit, m);
-            found = NOTHING_FOUND;
-            way = way_of(orbit, m);
-            if (m.near) found = next_meeting(way, 0.0, min(end, 1.0), m.first);
-            pauses = m.crossed || found.kind != MEETING_NONE || m.fate != UNRESOLVED || m.steps >= plan_max_steps;
+            between = m.crossed && !m.near;
+#if ORDERS > 0
+            if (between && !met) find_crossing(orbit, m.s, m.next, m.h, end, hits);
+#endif
+            between = between && m.fate == UNRESOLVED && m.steps < plan_max_steps;
 #if MARCH_REPEATS
-        } while (!pauses);
+        } while (between);
 #else
-            if (pauses) break;
+            if (!between) break;
         }
 #endif
-        if (!met) met = meet_in_step(orbit, m, way, end, found, hits);
+        Way way = way_of(orbit, m);
+        Found found = NOTHING_FOUND;
+        if (m.near) found = next_meeting(way, 0.0, min(end, 1.0), m.first);
+        if (m.near && !met) met = meet_in_step(orbit, m, way, end, found, hits);
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
     if (met) m.fate = MET;
 #else

@@ -174,12 +174,14 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     return near;
 }
 
-// The parameter between `from` and `to` at which the curve is beside x: false position along `onward`.
-float parameter_beside(Way way, float from, float to, vec3 x, vec3 onward) {
-    float low = from, high = to, t = from;
-    float below = dot(path_point(way_path(way, from)) - x, onward), above = dot(path_point(way_path(way, to)) - x, onward);
-    for (int i = 0; i < 8; ++i) {
-        t = mix(low, high, clamp(below / min(below - above, -1e-20), 0.0, 1.0));
+// The parameter between `from` and `to`, at which the curve is at a and b, where it is beside what is the part `part` of the way from a to b: false position.
+float parameter_beside(Way way, float from, float to, Path a, Path b, float part) {
+    vec3 begin = path_point(a), onward = path_point(b) - begin, x = begin + part * onward;
+    float low = from, high = to, below = -part * dot(onward, onward), above = below + dot(onward, onward);
+    // As it would be if places were linear in it.
+    float t = mix(from, to, part * a.place.w / max(mix(b.place.w, a.place.w, part), 1e-30));
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) t = mix(low, high, clamp(below / min(below - above, -1e-20), 0.0, 1.0));
         float here = dot(path_point(way_path(way, t)) - x, onward);
         if (here < 0.0) { low = t; below = here; above *= 0.7; } else { high = t; above = here; below *= 0.7; }
     }
@@ -195,6 +197,7 @@ Found next_meeting(Way way, float from, float to, int first) {
     Path here = way_path(way, t);
     vec3 x = path_point(here);
     float part = last - t;
+    Path ahead = here;
     Found found = NOTHING_FOUND;
     for (int i = 0; i < MOST_PIECES; ++i) {
         if (t >= last) break;
@@ -209,6 +212,7 @@ Found next_meeting(Way way, float from, float to, int first) {
             continue;
         }
         to = next;
+        ahead = there;
         if (found.kind != MEETING_NONE) break;
         if (path_leaves(here, there, meeting_reach)) break;
         t = next;
@@ -216,10 +220,7 @@ Found next_meeting(Way way, float from, float to, int first) {
         x = y;
         part *= 2.0;
     }
-    if (found.kind != MEETING_NONE) {
-        vec3 piece = path_point(way_path(way, to)) - x;
-        found.at = parameter_beside(way, t, to, x + found.at * piece, piece);
-    }
+    if (found.kind != MEETING_NONE) found.at = parameter_beside(way, t, to, here, ahead, found.at);
     return found;
 }
 

@@ -132,7 +132,7 @@ def _of_instances() -> Iterator[Wanted]:
                 yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
                 yield "reach_marks.frag", f"{kind} by {model}", made, {}
                 if made.meetings == 1:
-                    filled = ("refine_things.frag", {}), ("refine_bends.frag", {}), ("refine_fill.frag", {}), ("refine_cells.frag", FILLED)
+                    filled = *((f"refine_{name}.frag", {}) for name in ("marks", "things", "bends", "fill")), ("refine_cells.frag", FILLED)
                     yield from ((path, f"{kind} by {model}", made, switches) for path, switches in filled)
 
 

@@ -19,9 +19,11 @@ def _boxes(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 def _walked(texels: np.ndarray, point: np.ndarray) -> tuple[list[int], int]:
     """What the leaves hold whose boxes hold the point, and how many nodes were looked at: shaders/common/hierarchy.glsl."""
     nodes, found, node, looks = texels.reshape(-1, 4), [], hierarchy.FIRST, 0
+    low, high = _boxes_of(nodes)
+    holds = np.all((low <= point) & (point <= high), axis=1)
     while node > 0:
-        (low, high), link = _box(nodes, node), int(nodes[node, 3])
-        met, leaf = bool(np.all(low <= point) and np.all(point <= high)), link < 0
+        met, link = bool(holds[node]), int(nodes[node, 3])
+        leaf = link < 0
         found += [(-1 - link) >> 1] if met and leaf else []
         follows = link & 1 == 1 if leaf else met
         node = node + 1 if follows else max(link, 0)
@@ -29,10 +31,10 @@ def _walked(texels: np.ndarray, point: np.ndarray) -> tuple[list[int], int]:
     return found, looks
 
 
-def _box(nodes: np.ndarray, node: int) -> np.ndarray:
-    """Its low and its high corner."""
+def _boxes_of(nodes: np.ndarray) -> np.ndarray:
+    """The low and the high corners of their boxes."""
     *corner, cell = nodes[0].view(np.float32).astype(float)
-    sides = nodes[node, :3].view(np.uint32).astype(np.int64)
+    sides = np.ascontiguousarray(nodes[:, :3]).view(np.uint32).astype(np.int64)
     return np.array(corner) + cell * np.stack([sides & 65535, sides >> 16])
 
 
@@ -73,7 +75,7 @@ def test_few_nodes_are_looked_at_for_a_point_among_many_boxes() -> None:
 @pytest.mark.parametrize("value", [0.1, -0.1, 1e5 / 3.0])
 def test_boxes_are_rounded_outwards(value: float) -> None:
     texels = hierarchy.build(np.full((1, 3), value), np.full((1, 3), value)).texels(np.array([0]))
-    low, high = _box(texels[0], hierarchy.FIRST)
+    low, high = _boxes_of(texels[0])[:, hierarchy.FIRST]
     assert np.all(low < value) and np.all(high > value) and np.all(high - low < 1e-6 * abs(value))
 
 
@@ -81,6 +83,6 @@ def test_boxes_far_from_where_places_are_counted_are_as_narrow_as_single_precisi
     low = np.array([[1000.0, -3.0, 7.0], [1000.1, -3.0, 7.05]])
     texels = hierarchy.build(low, low + 0.02).texels(np.arange(3))
     for node in (2, 3):
-        found = _box(texels[0], node)
+        found = _boxes_of(texels[0])[:, node]
         box = int(np.argmin(np.abs(low[:, 0] - found[0, 0])))
         assert np.all(found[0] < low[box]) and np.all(found[1] > low[box] + 0.02) and np.all(np.abs(found - [low[box], low[box] + 0.02]) < 5e-4)
