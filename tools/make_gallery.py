@@ -52,6 +52,7 @@ SHOTS = (
     Shot("points_and_rings", ("kerr_06", "points_and_rings"), {"camera.inclination_deg": 62.0, "camera.fov_deg": 46.0}),
     Shot("clouds", ("kerr", "clouds")),
     Shot("amber_dust", ("kerr_06", "amber_dust"), {"camera.inclination_deg": 66.0, "camera.fov_deg": 46.0}),
+    Shot("dragged_points", ("dragged_points",)),
     Shot("m87_like", ("m87_like",)),
     Shot("gargantua_as_filmed", ("gargantua_as_filmed",)),
     Shot("luminet_1979", ("luminet_1979",)),

@@ -11,7 +11,7 @@ import numpy as np
 from .. import listed_rays
 from ..listed_rays import TracedRays
 from ..physics import observer, relativity
-from ..physics.space_time import is_field
+from ..physics.space_time import is_field, ray_model
 from ..plan.choice import REFINED_SIZE
 from ..scene import Scene, met, presets
 
@@ -154,6 +154,8 @@ def view_of(scene: Scene) -> tuple[object, ...]:
 
 
 def is_charted(scene: Scene) -> bool:
-    """Whether the chart measures `scene`: a hole as it is, a camera at rest, and nothing to meet but a disk in its equator, as the reference knows no more."""
+    """Whether the chart measures `scene`: a hole as it is, by light as it goes there, a camera at rest, and nothing to meet but a disk in its equator, as the
+    reference knows no more."""
     plain = met.is_empty(scene) and not scene.disk.tilt_deg and scene.sky.model != "picture"  # which a hole bends as it does any sky
-    return is_physical(scene) and not observer.is_moving(scene.camera) and plain and scene.rays.lensing and not is_field(scene)
+    as_it_is = is_physical(scene) and ray_model(scene).traits.exact and scene.rays.lensing
+    return as_it_is and not observer.is_moving(scene.camera) and plain and not is_field(scene)
