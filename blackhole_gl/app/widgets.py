@@ -247,7 +247,7 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str], picture: DrawPict
     plug_ins = catalogue.plug_ins(slot) if slot else {}
     names = {option: plug_ins[option].label if option in plug_ins else _option(option) for option in item.options}
     picked = str(item.default) if _is_combo_reset() else None
-    if imgui.begin_combo(f"##{item.key}", names.get(value, value)):
+    if imgui.begin_combo(f"##{item.key}", names.get(value, value), imgui.ComboFlags_.height_large.value if slot else 0):
         for option, name in names.items():
             grey = imgui.SelectableFlags_.disabled.value if option in unfit else 0
             height, on_picture = 0.0, False

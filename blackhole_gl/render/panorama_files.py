@@ -18,6 +18,7 @@ from ..scene import files
 from ..scene.schema import SceneError
 from . import stamps
 from .picture_files import FORMATS, MOST_ASIDE, MOST_PIXELS
+from .sampling import between, halved, packed
 from .sky_cube import on_face
 from .stamps import Stamp, Unusable
 
@@ -147,12 +148,12 @@ def _seen(light: Array) -> tuple[Light, int]:
     """What one sees of a picture (rows, columns, 3) from within, by its shape, and how many pixels a face has across."""
     rows, columns = light.shape[:2]
     if columns == 2 * rows:
-        return partial(_on_sphere, _packed(light), columns), columns // 4
+        return partial(_on_sphere, packed(light), columns), columns // 4
     for across, down, places in _LAYOUTS:
         side = columns // across
         if (columns, rows) == (across * side, down * side):
             faces = np.concatenate([_cut(light, side, *place) for place in places])
-            return partial(_on_faces, _packed(faces), side), side
+            return partial(_on_faces, packed(faces), side), side
     raise Unusable(f"it has {columns}×{rows} pixels")
 
 
@@ -175,7 +176,7 @@ def _on_sphere(pixels: Array, columns: int, direction: Array) -> Array:
     rows = columns // 2
     x = (0.5 - np.arctan2(direction[..., 1], direction[..., 0]) / (2.0 * np.pi)) * columns - 0.5
     y = (0.5 - np.arcsin(np.clip(direction[..., 2], -1.0, 1.0)) / np.pi) * rows - 0.5
-    return _between(pixels, columns, np.where(x < 0.0, x + columns, x), np.clip(y, 0.0, rows - 1.0), around=True)
+    return between(pixels, columns, np.where(x < 0.0, x + columns, x), np.clip(y, 0.0, rows - 1.0), around=True)
 
 
 def _on_faces(pixels: Array, side: int, direction: Array) -> Array:
@@ -188,31 +189,7 @@ def _on_faces(pixels: Array, side: int, direction: Array) -> Array:
     across = np.select([axis == 0, axis == 1], [np.where(behind, front, -front), right], np.where(behind, -right, right))
     above = np.where(axis == 1, np.where(behind, front, -front), up)
     x, y = (np.clip((0.5 * sign * place / np.abs(along) + 0.5) * side - 0.5, 0.0, side - 1.0) for place, sign in ((across, 1.0), (above, -1.0)))
-    return _between(pixels, side, x, (2 * axis + behind) * side + y, around=False)
-
-
-def _between(pixels: Array, columns: int, x: Array, y: Array, around: bool) -> Array:
-    """Light between the middles of `pixels` (see `_packed`), at columns x and rows y. `around`: the first column follows the last."""
-    i, j = x.astype(np.int32), y.astype(np.int32)
-    s, t = ((place - whole)[..., None] for place, whole in ((x, i), (y, j)))
-    east = i + 1
-    east = np.where(east == columns, 0, east) if around else np.minimum(east, columns - 1)
-    here = j * columns
-    below = np.minimum(here + columns, len(pixels) - columns)
-    low, high = (_taken(pixels, row + i) * (1 - s) + _taken(pixels, row + east) * s for row in (here, below))
-    low += t * (high - low)
-    return low[..., :3]
-
-
-def _packed(light: Array) -> Array:
-    """The pixels of a picture (rows, columns, 3) in a row, each as one number of 16 bytes: a third of the time to pick them from all over it."""
-    padded = np.zeros((light.shape[0] * light.shape[1], 4), np.float32)
-    padded[:, :3] = light.reshape(-1, 3)
-    return padded.view(np.complex128)[:, 0]
-
-
-def _taken(pixels: Array, which: Array) -> Array:
-    return pixels.take(which).view(np.float32).reshape(*which.shape, 4)
+    return between(pixels, side, x, (2 * axis + behind) * side + y, around=False)
 
 
 def _levels(light: Light, side: int) -> tuple[Array, ...]:
@@ -225,8 +202,7 @@ def _levels(light: Light, side: int) -> tuple[Array, ...]:
     for level in range(LEVELS):
         found.append(_atlas(tiles))
         if level < LEVELS - 1:
-            west, east = tiles[:, :, ::2], tiles[:, :, 1::2]
-            tiles = 0.25 * (west[:, ::2] + east[:, ::2] + west[:, 1::2] + east[:, 1::2])
+            tiles = halved(tiles)
     return tuple(found)
 
 

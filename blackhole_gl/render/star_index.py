@@ -14,7 +14,8 @@ from functools import lru_cache
 import numpy as np
 
 from . import galaxy_band, star_catalogue
-from .sky_cube import on_cube, place_of, place_on, slope, solid_angle
+from .sampling import between, halved, packed
+from .sky_cube import on_face, place_of, place_on, slope, solid_angle
 from .star_catalogue import GALAXY_CENTRE, GALAXY_POLE, Stars
 from .star_cells import KELVIN_STEP
 
@@ -192,7 +193,7 @@ def _haze(stars: Stars, within: list[Array], galaxy: Array) -> tuple[Array, ...]
         left = np.where(member, 0.0, stars.flux)
         starlight = np.stack([_starlight(*near, left, tile) for near in faces])
         levels.append(_atlas(np.concatenate([galaxy, starlight[..., None]], axis=-1).astype(np.float16)))
-        galaxy = galaxy.reshape(6, tile // 2, 2, tile // 2, 2, 3).mean(axis=(2, 4))
+        galaxy = halved(galaxy)
     return tuple(levels)
 
 
@@ -225,25 +226,22 @@ def _starlight(near: Array, across: Array, up: Array, flux: Array, tile: int) ->
 
 def _galaxy_tiles() -> Array:
     """Radiance of the galaxy's band in its place, (6, TILE, TILE, 3), 0…1."""
-    root = galaxy_band.table().astype(np.float32) / 255.0
-    place = _places(TILE)
-    u, v = np.meshgrid(place, place)
-    return np.stack([_band_at(root, on_cube(np.full((TILE, TILE), face), u, v).astype(np.float32)) for face in range(6)])
+    root = galaxy_band.table().astype(np.float32) / np.float32(255.0)
+    pixels, columns = packed(root), root.shape[1]
+    u, v = np.meshgrid(*2 * [_places(TILE).astype(np.float32)])
+    return np.stack([_band_at(pixels, columns, on_face(face, u, v)) for face in range(6)])
 
 
-def _band_at(root: Array, direction: Array) -> Array:
-    """Radiance of the band towards `direction` (…, 3), between its texels. Longitude grows to the left in the sky, as astronomers count it."""
-    rows, columns = root.shape[:2]
+def _band_at(pixels: Array, columns: int, direction: Array) -> Array:
+    """Radiance of the band towards `direction` (…, 3). Longitude grows to the left in the sky, as astronomers count it."""
+    rows = len(pixels) // columns
     pole, centre = (axis.astype(np.float32) for axis in (GALAXY_POLE, GALAXY_CENTRE))
     height = direction @ pole
     longitude = np.arctan2(direction @ np.cross(pole, centre), direction @ centre)
-    x = ((longitude * np.float32(0.5 / np.pi) + 0.5) * columns - 0.5) % columns
-    y = np.clip((height + 0.5) * rows - 0.5, 0.0, rows - 1.001)
-    i, j = x.astype(int), y.astype(int)
-    s, t = (x - i)[..., None], (y - j)[..., None]
-    beside = (i + 1) % columns
-    found = (1 - t) * ((1 - s) * root[j, i] + s * root[j, beside]) + t * ((1 - s) * root[j + 1, i] + s * root[j + 1, beside])
-    return np.where(np.abs(height)[..., None] < 0.5, found, 0.0) ** 2
+    x = (longitude * np.float32(0.5 / np.pi) + np.float32(0.5)) * columns - np.float32(0.5)
+    y = np.clip((height + np.float32(0.5)) * rows - np.float32(0.5), 0.0, rows - 1.0)
+    root = between(pixels, columns, np.where(x < 0.0, x + columns, x), y, around=True)
+    return np.where(np.abs(height)[..., None] < 0.5, root, np.float32(0.0)) ** 2
 
 
 def _atlas(tiles: Array) -> Array:
