@@ -133,7 +133,7 @@ def angle_of_synchrotron(carried: Carried, spin: float, angular_velocity: Float[
         angular_velocity: dφ/dt of the matter there, M = 1.
         field: its parts along the axis, outwards and along the orbit, in the frame of the matter.
     """
-    x, k = carried.place, carried.k
+    x = carried.place
     g = metric(x, spin)
     zero, one = np.zeros_like(x[0]), np.ones_like(x[0])
     u = _unit(g, np.stack([one, -angular_velocity * x[1], angular_velocity * x[0], zero]))
@@ -141,8 +141,34 @@ def angle_of_synchrotron(carried: Carried, spin: float, angular_velocity: Float[
     outwards = _unit(g, np.einsum("ab...,b...->a...", _raised(g), _slope_of_radius(x, spin)))
     turning = np.stack([zero, -x[1], x[0], zero])
     forward = _unit(g, turning + _product(g, turning, u) * u)
-    magnetic = field[0] * axis + field[1] * outwards + field[2] * forward
-    lowered = [np.einsum("ab...,b...->a...", g, v) for v in (u, k, magnetic)]
+    return _angle(carried, g, u, field[0] * axis + field[1] * outwards + field[2] * forward)
+
+
+def angle_of_falling(carried: Carried, spin: float, energy: float, momentum: float, field: tuple[float, float, float]) -> Float[Array, " N"]:
+    """The same of matter that falls inwards in the plane with that energy and angular momentum a unit of mass, M = 1.
+
+    Args:
+        field: its parts along the axis, outwards and counter-clockwise, in the frame of the matter: that of zero angular momentum, boosted and not turned.
+    """
+    x = carried.place
+    g = metric(x, spin)
+    inverse, slope, r = _raised(g), _slope_of_radius(x, spin), np.sqrt((x * x).sum(axis=0) - spin**2)
+    zero, one = np.zeros_like(x[0]), np.ones_like(x[0])
+    still, turning = np.stack([one, zero, zero, zero]), np.stack([zero, -x[1], x[0], zero])
+    time = np.stack([one, zero, zero, zero]) - 2.0 * r / (r * (r - 2.0) + spin**2) * slope  # the gradient of Boyer–Lindquist's
+    rest, outwards = (_unit(g, np.einsum("ab...,b...->a...", inverse, form)) for form in (-time, slope))
+    axis, forward = _unit(g, np.stack([zero, zero, zero, one])), _unit(g, turning)
+    around = momentum / np.sqrt(_product(g, turning, turning))
+    gamma = -(energy + around * _product(g, forward, still)) / _product(g, rest, still)
+    inwards = -np.sqrt(gamma**2 - 1.0 - around**2)
+    u = gamma * rest + inwards * outwards + around * forward
+    boosted = [v + part / (1.0 + gamma) * (u + rest) for v, part in ((outwards, inwards), (forward, around))]
+    return _angle(carried, g, u, field[0] * axis + field[1] * boosted[0] + field[2] * boosted[1])
+
+
+def _angle(carried: Carried, g: Array, u: Array, magnetic: Array) -> Float[Array, " N"]:
+    """Position angle at the observer of light polarized along ε(u, k, B)."""
+    lowered = [np.einsum("ab...,b...->a...", g, v) for v in (u, carried.k, magnetic)]
     f = np.einsum("abcd,b...,c...,d...->a...", _permutations(), *lowered)
     return np.arctan2(-_product(g, f, carried.right), _product(g, f, carried.up))
 

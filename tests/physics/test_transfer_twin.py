@@ -44,6 +44,7 @@ def test_the_five_tests_of_the_code_comparison_coarsely():
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(7200)  # sixteen thousand rays, five times
 @pytest.mark.parametrize("model", ["kerr", "kerr_schild"])
 def test_the_five_tests_of_the_code_comparison(model):
     check_gold(np.array([gold_flux(test, 128, model) for test in range(5)]))
