@@ -28,6 +28,7 @@ FALLING = ("rain", "fall")
 
 _INWARDS = np.array([-1.0, 0.0, 0.0])
 _SEEN = np.array([1.0, 0.0, 0.0, 0.0])
+_BOTH_SEEN = np.stack([_SEEN, _SEEN])
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,8 @@ class Observer:
         tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) = tetrad · (1, n_r, n_θ, n_φ), still to be divided by E; primes are derivatives in Mino time
             (M = 1) along the ray traced backwards (docs/physics.md). Of the moving observer, or of one at rest in his place where aberration is off.
         look: float64 (3, 3) rotation of the view: n = look · v, with v = (−1, 0, 0) for the middle of the picture.
-        zamo: float64 (4, 4): (E, n) in the frame of zero angular momentum from (1, n); None inside the horizon.
+        frame: that of `kind` at finite distance, before any boost.
+        moves: float64 (4, 4): (E, n) in that frame from (1, n), where the camera moves in it.
         hole: local unit vector (3,) to the hole's centre, as the aberration of straight inwards has it.
         colour, beaming: float64 (4,): the energy that light from n shows, · (1, n), as it counts for colours and for brightness: (1, 0, 0, 0) unless the
             observer's motion is not to count.
@@ -56,10 +58,17 @@ class Observer:
     e_phi: Float[np.ndarray, " 3"]
     tetrad: Float[np.ndarray, "4 4"]
     look: Float[np.ndarray, "3 3"]
-    zamo: Float[np.ndarray, "4 4"] | None = field(default_factory=lambda: np.eye(4))
-    hole: Float[np.ndarray, " 3"] = field(default_factory=lambda: _INWARDS.copy())
-    colour: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
-    beaming: Float[np.ndarray, " 4"] = field(default_factory=lambda: np.eye(4)[0])
+    frame: observer_frames.Frame | None = None
+    moves: Float[np.ndarray, "4 4"] | None = None
+    hole: Float[np.ndarray, " 3"] = field(default_factory=lambda: _INWARDS)
+    colour: Float[np.ndarray, " 4"] = field(default_factory=lambda: _SEEN)
+    beaming: Float[np.ndarray, " 4"] = field(default_factory=lambda: _SEEN)
+
+    @cached_property
+    def zamo(self) -> Float[np.ndarray, "4 4"] | None:
+        """(E, n) in the frame of zero angular momentum from (1, n), float64 (4, 4); None inside the horizon, and for a camera at infinity."""
+        still = None if self.frame is None else self.frame.zamo
+        return still if still is None or self.moves is None else still @ self.moves
 
     @cached_property
     def observer_map(self) -> Float[np.ndarray, "4 4"]:
@@ -69,6 +78,8 @@ class Observer:
     @cached_property
     def shown_energies(self) -> Float[np.ndarray, "2 4"]:
         """`colour` and `beaming` from (1, v), float64 (2, 4)."""
+        if self.colour is _SEEN and self.beaming is _SEEN:
+            return _BOTH_SEEN
         return self._of_view(np.stack([self.colour, self.beaming]))
 
     def energies(self, directions: Float[np.ndarray, "*rays 3"]) -> Float[np.ndarray, "*rays"]:
@@ -122,7 +133,7 @@ def observe(scene: Scene) -> Observer:
     r = 2.0 * camera.distance  # M = 1 from here on
     flat = where.kind == "flat"
     frame = observer_frames.flat_frame(r, camera) if flat else observer_frames.hole_frame(r, cos_theta, sin_theta, where, camera)
-    seen = Observer(frame.kind, 0.0 if flat else where.observer_spin, 1.0 / r, n, e_theta, e_phi, frame.tetrad, look, frame.zamo)
+    seen = Observer(frame.kind, 0.0 if flat else where.observer_spin, 1.0 / r, n, e_theta, e_phi, frame.tetrad, look, frame)
     return _moving(seen, frame, camera)
 
 
@@ -136,7 +147,7 @@ def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Obs
     if not is_moving(camera):
         return seen
     moves = observer_frames.lorentz(observer_frames.boost(camera))
-    if frame.zamo is None or frame.rest is None:
+    if frame.zamo is None:
         return _moving_inside(seen, moves, camera)
     zamo = frame.zamo @ moves
     motion = np.linalg.solve(frame.rest, zamo)  # (E, n) at rest there from the observer's (1, n)
@@ -144,12 +155,12 @@ def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Obs
     if not camera.aberration:
         at_rest = np.linalg.inv(motion)
         energies = {True: at_rest[0], False: _SEEN}
-        zamo, moves = frame.rest, np.linalg.solve(frame.zamo, frame.rest)
+        moves = np.linalg.solve(frame.zamo, frame.rest)
     hole = np.linalg.solve(zamo, frame.rest @ np.array([1.0, *_INWARDS]))[1:] if camera.aberration else _INWARDS
     return replace(
         seen,
         tetrad=seen.tetrad @ moves,
-        zamo=zamo,
+        moves=moves,
         hole=hole / np.linalg.norm(hole),
         colour=energies[camera.doppler_colour],
         beaming=energies[camera.beaming],
@@ -167,7 +178,7 @@ def _moving_inside(seen: Observer, moves: Float[np.ndarray, "4 4"], camera: Came
             text = "got false; inside the horizon all is in motion, and there is nobody at rest to see without: allowed is true"
             raise SceneError(f"camera.{name}", text)
     hole = np.linalg.solve(moves, np.array([1.0, *_INWARDS]))[1:]
-    return replace(seen, tetrad=seen.tetrad @ moves, zamo=None, hole=hole / np.linalg.norm(hole))
+    return replace(seen, tetrad=seen.tetrad @ moves, moves=moves, hole=hole / np.linalg.norm(hole))
 
 
 def least_distance(scene: Scene) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -27,14 +28,24 @@ class Frame:
     Attributes:
         kind: ``static``, ``zamo``, ``circular``, ``rain`` or ``fall``, as used (a static observer gives way to the ZAMO in the ergosphere).
         tetrad: float64 (4, 4): (E, w', n'_θ, n'_φ) from (1, n).
-        zamo: (E, n) in the frame of zero angular momentum there from (1, n); what flat space has for it is at rest. None inside the horizon.
-        rest: the same for who is at rest there: static, or the ZAMO where that is asked for or nothing can rest. None inside the horizon.
+        velocity: (r, θ, φ) against the frame of zero angular momentum there; what flat space has for it is at rest. None inside the horizon.
+        rest_speed: of who is at rest there, along e_φ against that frame: static, or the ZAMO where that is asked for or nothing can rest.
     """
 
     kind: str
     tetrad: Float[np.ndarray, "4 4"]
-    zamo: Float[np.ndarray, "4 4"] | None
-    rest: Float[np.ndarray, "4 4"] | None
+    velocity: tuple[float, float, float] | None
+    rest_speed: float
+
+    @cached_property
+    def zamo(self) -> Float[np.ndarray, "4 4"] | None:
+        """(E, n) in the frame of zero angular momentum there from (1, n), (4, 4); None inside the horizon."""
+        return None if self.velocity is None else lorentz(np.array(self.velocity))
+
+    @cached_property
+    def rest(self) -> Float[np.ndarray, "4 4"]:
+        """The same from (1, n) of who is at rest there; without meaning inside the horizon."""
+        return lorentz(np.array([0.0, 0.0, self.rest_speed]))
 
 
 @dataclass(frozen=True)
@@ -127,7 +138,7 @@ def flat_frame(r: float, camera: Camera) -> Frame:
     if camera.observer not in ("static", "zamo"):
         text = f"got {camera.observer}; in flat space, as with lensing off, nothing falls or circles: allowed are static and zamo, with a velocity of their own"
         raise SceneError("camera.observer", text)
-    return Frame("static", np.diag([1.0, -1.0, r, r]), np.eye(4), np.eye(4))
+    return Frame("static", np.diag([1.0, -1.0, r, r]), (0.0, 0.0, 0.0), 0.0)
 
 
 def hole_frame(r: float, cosine: float, sine: float, where: SpaceTime, camera: Camera) -> Frame:
@@ -143,7 +154,8 @@ def hole_frame(r: float, cosine: float, sine: float, where: SpaceTime, camera: C
     if camera.observer == "circular":
         _refuse_circular(place, where, camera)
         kind = "circular"
-    return Frame(kind, *_turning(place, _speed_round(place, kind)), _at_rest(place, camera.observer))
+    beta = _speed_round(place, kind)
+    return Frame(kind, _turning(place, beta), (0.0, 0.0, beta), _rest_speed(place, camera.observer))
 
 
 def _speed_round(place: _Place, kind: str) -> float:
@@ -155,8 +167,8 @@ def _speed_round(place: _Place, kind: str) -> float:
     return 0.0
 
 
-def _turning(place: _Place, beta: float) -> tuple[Float[np.ndarray, "4 4"], Float[np.ndarray, "4 4"]]:
-    """Tetrad, and (E, n) for the ZAMO, of who moves at `beta` along e_φ: the ZAMO's (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted."""
+def _turning(place: _Place, beta: float) -> Float[np.ndarray, "4 4"]:
+    """Tetrad of who moves at `beta` along e_φ: the ZAMO's (Bardeen, Press & Teukolsky 1972, eq. 3.2), boosted."""
     gamma = 1.0 / math.sqrt((1.0 - beta) * (1.0 + beta))
     drag = place.omega * place.ring * place.sine
     matrix = np.zeros((4, 4))
@@ -166,11 +178,11 @@ def _turning(place: _Place, beta: float) -> tuple[Float[np.ndarray, "4 4"], Floa
     matrix[2, 2] = math.sqrt(place.sigma)
     matrix[3, 0] = -place.ring * gamma * beta
     matrix[3, 3] = place.ring * gamma
-    return matrix, lorentz(np.array([0.0, 0.0, beta]))
+    return matrix
 
 
-def _at_rest(place: _Place, observer: str) -> Float[np.ndarray, "4 4"]:
-    return _turning(place, _speed_round(place, "static" if place.has_rest and observer != "zamo" else "zamo"))[1]
+def _rest_speed(place: _Place, observer: str) -> float:
+    return _speed_round(place, "static" if place.has_rest and observer != "zamo" else "zamo")
 
 
 def _falling(place: _Place, camera: Camera) -> Frame:
@@ -188,8 +200,8 @@ def _falling(place: _Place, camera: Camera) -> Frame:
     matrix[2, 2] = math.sqrt(place.sigma)
     matrix[3, 3] = place.ring
     if place.r <= place.r_plus:
-        return Frame(camera.observer, matrix, None, None)
-    return Frame(camera.observer, matrix, lorentz(np.array([-beta, 0.0, 0.0])), _at_rest(place, camera.observer))
+        return Frame(camera.observer, matrix, None, 0.0)
+    return Frame(camera.observer, matrix, (-beta, 0.0, 0.0), _rest_speed(place, camera.observer))
 
 
 def _refuse_circular(place: _Place, where: SpaceTime, camera: Camera) -> None:
@@ -212,6 +224,6 @@ def _refuse_fall(place: _Place, camera: Camera) -> None:
 
 def ingoing_lag(distance: float, spin: float) -> float:
     """∫ a/Δ dr from `distance` (r_s) to infinity: by how much φ is ahead of the azimuth that stays along light that falls straight in. 0 inside the horizon."""
-    outer, inner = 2.0 * float(relativity.horizon_radius(spin)), 2.0 * float(relativity.inner_horizon_radius(spin))
-    r = 2.0 * distance
-    return spin / (outer - inner) * math.log1p((outer - inner) / (r - outer)) if math.isfinite(r) and r > outer else 0.0
+    half_gap = math.sqrt((1.0 - spin) * (1.0 + spin))  # of the horizons
+    above = 2.0 * distance - 1.0 - half_gap
+    return 0.5 * spin / half_gap * math.log1p(2.0 * half_gap / above) if math.isfinite(above) and above > 0.0 else 0.0
