@@ -39,6 +39,7 @@ class Panel:
         self._filter = ""
         self._instances = InstanceGroups()
         self._active: tuple[Scene, Mapping[str, list[Field]]] | None = None
+        self._art: tuple[Scene, str] | None = None
 
     def draw(self, state: WindowState, reasons: Sequence[str], warnings: Sequence[str], thumbnails: Thumbnails) -> None:
         """Draws the panel into the current window.
@@ -50,7 +51,7 @@ class Panel:
         self._pickers.draw(state, thumbnails)
         _steps(state)
         _files(state)
-        _remarks(state, warnings)
+        _remarks(self._departing(state.scene), warnings)
         imgui.separator()
         imgui.set_next_item_width(-1.0)
         _, self._filter = imgui.input_text_with_hint("##filter", "Find a value", self._filter)
@@ -72,6 +73,12 @@ class Panel:
         if self._active is None or self._active[0] is not scene:
             self._active = scene, {section: [item for item in items if _is_active(item, scene)] for section, items in _sections().items()}
         return self._active[1]
+
+    def _departing(self, scene: Scene) -> str:
+        """The names of the values that make `scene` art, looked for once as its rows are."""
+        if self._art is None or self._art[0] is not scene:
+            self._art = scene, ", ".join(widgets.label_of(item.key).lower() for item in scene.fields().values() if widgets.departs(item, scene.get(item.key)))
+        return self._art[1]
 
     def clear_filter(self) -> None:
         """Has every row shown."""
@@ -151,7 +158,8 @@ def _table(name: str, items: Iterable[Field], state: WindowState, thumbnails: Th
         before, heading = heading, _heading(item)
         if heading is not None and heading != before:
             _subheading(*heading)
-        ranged = range_in(scene, replace(item, default=state.in_force(item)))
+        in_force = state.in_force(item)
+        ranged = range_in(scene, item if in_force == item.default else replace(item, default=in_force))
         widgets.row(ranged, scene.get(item.key), state.change, plan.unfit_options(item.key, scene), thumbnails.draw)
         sought.mark(state, item.key)
     imgui.end_table()
@@ -213,10 +221,9 @@ def _matches(item: Field, wanted: str) -> bool:
     return wanted in item.key.lower() or wanted in widgets.label_of(item.key).lower()
 
 
-def _remarks(state: WindowState, warnings: Sequence[str]) -> None:
-    """A line that says what makes this picture worse than asked for, and which values make it art."""
-    names = [widgets.label_of(item.key).lower() for item in state.scene.fields().values() if widgets.departs(item, state.scene.get(item.key))]
-    remarks = [warning[:1].upper() + warning[1:] for warning in warnings] + ["Departs from physics: " + ", ".join(names)] * bool(names)
+def _remarks(departing: str, warnings: Sequence[str]) -> None:
+    """A line that says what makes this picture worse than asked for, and which values, named in `departing`, make it art."""
+    remarks = [warning[:1].upper() + warning[1:] for warning in warnings] + ["Departs from physics: " + departing] * bool(departing)
     _line(". ".join(remarks) or "Physics throughout", theme.DEPARTS if remarks else theme.DIM)
 
 
