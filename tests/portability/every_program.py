@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from blackhole_gl.plan import Plan, plan
@@ -70,10 +70,19 @@ class Recorder:
 
 
 def collect() -> Mapping[tuple[str, str], str]:
-    """(vertex text, fragment text) → path and scene of every program."""
+    """(vertex text, fragment text) → path and scene of every program; of methods those of `pairs`."""
+    return _composed(itertools.chain(_of_scenes(), _of_instances(), _of_views(), _of_methods(every_pair=False)))
+
+
+def collect_methods() -> Mapping[tuple[str, str], str]:
+    """As `collect`, for every integrator and step control with every ray model that they fit."""
+    return _composed(_of_methods(every_pair=True))
+
+
+def _composed(wanted: Iterable[Wanted]) -> Mapping[tuple[str, str], str]:
     recorder = Recorder()
     programs = Programs(recorder)
-    for path, name, made, switches in itertools.chain(_of_scenes(), _of_instances(), _of_views(), _of_methods()):
+    for path, name, made, switches in wanted:
         recorder.asked = f"{path} for {name}"
         programs.get(path, FrameInputs.whole(made, 0.0, (16, 16)), switches)
     return recorder.texts
@@ -145,9 +154,9 @@ def _of_views() -> Iterator[Wanted]:
             yield "trace.frag", f"the reference of {model}", most_accurate(made), {}
 
 
-def _of_methods() -> Iterator[Wanted]:
+def _of_methods(*, every_pair: bool) -> Iterator[Wanted]:
     kerr = presets.load(["kerr"])
-    for name, values in _methods():
+    for name, values in _methods(every_pair=every_pair):
         for orders, view, listed in ((0, "picture", 0), (1, "conservation", 0), (3, "picture", 1)):
             made = replace(plan(kerr.with_values({**values, "post.view": view})), orders=orders)
             yield "trace.frag", f"{name}, {orders} orders", made, {"RAYS_LISTED": listed}
@@ -155,14 +164,22 @@ def _of_methods() -> Iterator[Wanted]:
                 yield "record.frag", name, made, {}
 
 
-def _methods() -> Iterator[tuple[str, Mapping[str, object]]]:
-    """(name, scene values) of every ray model, and of a marched one with every integrator and step control that fit."""
+def _methods(*, every_pair: bool) -> Iterator[tuple[str, Mapping[str, object]]]:
+    """(name, scene values) of every ray model, and of a marched one with integrators and step controls."""
     for key, model in catalogue.plug_ins("ray_model").items():
         if model.traits.kind == "closed":
             yield key, {"rays.model": key}
             switches = [(name, value) for name, item in model.parameters.items() if item.kind == "switch" for value in (False, True)]
             yield from ((f"{key}, {name} {value}", {"rays.model": key, name: value}) for name, value in switches)
             continue
-        for integrator, control in itertools.product(catalogue.keys("integrator"), catalogue.keys("step_control")):
-            if not catalogue.reasons_against(key, integrator, control):
-                yield f"{key}, {integrator}, {control}", {"rays.model": key, "rays.integrator": integrator, "rays.step_control": control}
+        for integrator, control in pairs(key, every_pair=every_pair):
+            yield f"{key}, {integrator}, {control}", {"rays.model": key, "rays.integrator": integrator, "rays.step_control": control}
+
+
+def pairs(model: str, *, every_pair: bool = False) -> Iterator[tuple[str, str]]:
+    """Integrators and step controls to try with `model`, which is marched: all that fit one model of each way to march, and for the others each part once."""
+    usual = catalogue.plug_ins("ray_model")[model].traits.step_control
+    for integrator, control in itertools.product(catalogue.keys("integrator"), catalogue.keys("step_control")):
+        if every_pair or model in ("schwarzschild", "kerr") or integrator == "rk4" or control == usual:
+            if not catalogue.reasons_against(model, integrator, control):
+                yield integrator, control

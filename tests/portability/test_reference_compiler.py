@@ -17,7 +17,7 @@ from blackhole_gl.glsl.carried import MOST_INPUTS
 from blackhole_gl.glsl.live import live_words
 from blackhole_gl.render import uniforms
 from blackhole_gl.resources import shaders_dir
-from tests.portability.every_program import collect
+from tests.portability.every_program import collect, collect_methods
 
 COMPILER = "glslangValidator"
 MISSING = f"{COMPILER} is missing. Install it, then run the test again: sudo apt-get install -y --no-install-recommends glslang-tools"
@@ -52,10 +52,20 @@ def complaints(texts: Sequence[tuple[str, str]], folder: Path) -> list[str]:
 
 @pytest.mark.glslang
 def test_every_program_passes_the_reference_compiler(programs: Texts, tmp_path: Path) -> None:
+    check(programs, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.glslang
+def test_so_does_every_pair_of_integrator_and_step_control_with_every_model(tmp_path: Path) -> None:
+    check(collect_methods(), tmp_path)
+
+
+def check(programs: Texts, folder: Path) -> None:
     fragments = {fragment: name for (_, fragment), name in programs.items()}
     vertices = {vertex: name for (vertex, _), name in programs.items()}
     names = [*fragments.values(), *vertices.values()]
-    found = complaints([*(("frag", text) for text in fragments), *(("vert", text) for text in vertices)], tmp_path)
+    found = complaints([*(("frag", text) for text in fragments), *(("vert", text) for text in vertices)], folder)
     told = [f"{names[int(line.partition(':')[0])]}: {line.partition(': ')[2]}" for line in found]
     assert not told, "\n".join(told[:20])
 

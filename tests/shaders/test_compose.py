@@ -19,6 +19,7 @@ from blackhole_gl.render.inputs import FrameInputs
 from blackhole_gl.render.programs import Programs
 from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import Scene, catalogue, fields, presets
+from tests.portability.every_program import pairs
 
 SCENE = presets.load(["kerr"])
 INPUTS = FrameInputs.whole(plan.plan(SCENE), 0.0, (16, 9))
@@ -107,17 +108,11 @@ def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPat
 
 
 def combinations(model: str) -> Iterator[tuple[str, str]]:
-    """Integrators and step controls to try with `model`: all that fit one model of each way to march, and for the others each part once."""
-    ray_model = catalogue.plug_ins("ray_model")[model]
-    if ray_model.traits.kind == "closed":
+    """Integrators and step controls to try with `model`."""
+    if catalogue.plug_ins("ray_model")[model].traits.kind == "closed":
         yield "rk4", "radius"
-        return
-    whole = model in ("schwarzschild", "kerr")
-    for integrator in catalogue.keys("integrator"):
-        for control in catalogue.keys("step_control"):
-            usual = integrator == "rk4" or control == ray_model.traits.step_control
-            if (whole or usual) and not catalogue.reasons_against(model, integrator, control):
-                yield integrator, control
+    else:
+        yield from pairs(model)
 
 
 @pytest.mark.parametrize("model", catalogue.keys("ray_model"))
