@@ -6,6 +6,8 @@ as the detail of either depends on the size that a picture is drawn in.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -32,8 +34,9 @@ def displayed(radiance: np.ndarray) -> np.ndarray:
     return 255.0 * np.mean(radiance / (1.0 + radiance), axis=-1)
 
 
+@cache
 def reference(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> np.ndarray:
-    """`displayed` of the picture with `FINER`² rays a pixel, drawn in parts of its own size, row 0 on top."""
+    """`displayed` of the picture with `FINER`² rays a pixel, drawn in parts of its own size, row 0 on top: once for all that ask for it."""
     width, height = size
     made, finer = plan(scene.with_values({"rays.edges": 1})), (FINER * width, FINER * height)
     rows = []

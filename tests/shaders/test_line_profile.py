@@ -31,8 +31,8 @@ def by_quadrature(scene: Scene, index: float, edges: np.ndarray, order: int) -> 
     radii = inner + (scene.disk.outer_radius - inner) * part**2
     chi = np.linspace(0.0, 2.0 * np.pi, 181)
     spline = RectBivariateSpline(part, chi, lensed_circles.circles(seen, radii, np.full(len(radii), order), chi))
-    fine = (np.arange(2400) + 0.5) / 2400
-    angles = 2.0 * np.pi * (np.arange(2880) + 0.5) / 2880
+    fine = (np.arange(1200) + 0.5) / 1200
+    angles = 2.0 * np.pi * (np.arange(1440) + 0.5) / 1440
     away, change = spline(fine, angles), spline(fine, angles, dx=1)
     r = (inner + (scene.disk.outer_radius - inner) * fine**2)[:, None]
     lam = -away * np.cos(angles) * np.sin(np.radians(scene.camera.inclination_deg))
@@ -56,18 +56,24 @@ def test_it_is_that_of_the_quadrature(renderer: Renderer, spin: float, inclinati
     np.testing.assert_allclose(found.shares, truth.sum(axis=1) / truth.sum(), rtol=2e-3)
 
 
+def coarsely(renderer: Renderer, scene: Scene) -> line_profile.LineProfile:
+    """By a quarter of the rays that `measure` has: shares are then exact to two thousandths."""
+    (found,) = (found for found in line_profile.in_parts(renderer, scene, index=3.0, bins=BINS, parts=1, fineness=0.5) if found is not None)
+    return found
+
+
 @pytest.fixture(scope="module")
 def clear(renderer: Renderer) -> line_profile.LineProfile:
-    return line_profile.measure(renderer, disk(0.9, 60.0))
+    return coarsely(renderer, disk(0.9, 60.0))
 
 
 def test_a_disk_hides_its_rings_but_beside_it(renderer: Renderer, clear: line_profile.LineProfile) -> None:
-    opaque = line_profile.measure(renderer, disk(0.9, 60.0, disk__compositing="opacity", disk__opacity=1.0))
+    opaque = coarsely(renderer, disk(0.9, 60.0, disk__compositing="opacity", disk__opacity=1.0))
     assert clear.shares[1:].sum() > 2.0 * opaque.shares[1:].sum() > 0.0
 
 
 def test_a_far_camera_and_one_at_infinity_see_the_same(renderer: Renderer, clear: line_profile.LineProfile) -> None:
-    far = line_profile.measure(renderer, disk(0.9, 60.0, camera__distance=1e4))
+    far = coarsely(renderer, disk(0.9, 60.0, camera__distance=1e4))
     np.testing.assert_allclose(far.shares, clear.shares, rtol=5e-3)  # 5 r_s of 10^4 is how much larger the near side is seen
     assert far.mean == pytest.approx(clear.mean, rel=1e-3)
 

@@ -18,7 +18,7 @@ from blackhole_gl.render.squares import Squares
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)
-VIEWS = 40
+VIEWS = 24
 
 # At the plan's own steps a ray that falls straight in takes one, on whose curve things beside the horizon are met some pixels off (shaders/common/curve.glsl).
 FINE = {"rays.model": "kerr", "rays.integrator": "nystrom5", "rays.step_control": "mino", "rays.step_angle": 0.2}
