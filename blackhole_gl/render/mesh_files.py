@@ -28,6 +28,10 @@ CREASE_DEG = 45.0
 _KEPT = 8  # meshes
 
 
+NO_PLACE = -1e6
+"""Texture coordinates of what has none; shaders/things/mesh.glsl then takes longitude and latitude."""
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """T triangles that lie within the unit ball about the origin, and touch its surface.
@@ -35,7 +39,7 @@ class Mesh:
     Attributes:
         corners: float32 (T, 3 corners, 3), counter-clockwise from outside. normals: the same, unit vectors.
         colours: float32 (T, 3 corners, 3), linear, 0…1; None where the file has none.
-        places: float32 (T, 3 corners, 2), texture coordinates; 0 where the file has none.
+        places: float32 (T, 3 corners, 2), texture coordinates; `NO_PLACE` where the file has none.
     """
 
     corners: Float[np.ndarray, "T 3 3"]
@@ -170,4 +174,4 @@ def _colours(part: Any, faces: Int[np.ndarray, "T 3"], linear: bool) -> Float[np
 
 def _places(part: Any, faces: Int[np.ndarray, "T 3"]) -> Float[np.ndarray, "T 3 2"]:
     found = getattr(part.visual, "uv", None)
-    return np.zeros((*faces.shape, 2)) if found is None or len(found) != len(part.vertices) else np.asarray(found, float)[faces]
+    return np.full((*faces.shape, 2), NO_PLACE) if found is None or len(found) != len(part.vertices) else np.asarray(found, float)[faces]

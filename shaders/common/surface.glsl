@@ -2,10 +2,24 @@
 
 #include "common/pictures.glsl"
 
-// A place on a surface: its pattern repeats with u, 0…1 once around, and v goes 0…1 along; `right` and `up` are the changes of both to the next pixels.
+// A place on a surface: its pattern repeats with u, 0…1 once around, and v goes 0…1 along; `right` and `up` are the changes of both to the next pixels. A picture's left
+// side lies at u = left.
 struct Painted {
     vec2 at, right, up;
+    float left;
 };
+
+// Longitude and latitude at `arm` from the centre, in its own axes, and their changes: no angle is taken of a difference, so that there is no seam.
+Painted globe_place(vec3 arm, vec3 right, vec3 up) {
+    const float ROUND = 6.28318531;
+    float beside2 = max(dot(arm.xy, arm.xy), 1e-12 * dot(arm, arm)), beside = sqrt(beside2), whole2 = beside2 + arm.z * arm.z;
+    vec2 at = vec2(turns(arm.x, arm.y), 0.5 + 2.0 * turns(beside, arm.z));
+    vec2 change = vec2(arm.x * right.y - arm.y * right.x, 0.0) / (ROUND * beside2);
+    change.y = 2.0 * (beside * right.z - arm.z * dot(arm.xy, right.xy) / beside) / (ROUND * whole2);
+    vec2 other = vec2(arm.x * up.y - arm.y * up.x, 0.0) / (ROUND * beside2);
+    other.y = 2.0 * (beside * up.z - arm.z * dot(arm.xy, up.xy) / beside) / (ROUND * whole2);
+    return Painted(at, change, other, -0.5);
+}
 
 // The mean of a square wave, +1 and −1 by turns from whole number to whole number, over `width` about x.
 float square_wave(float x, float width) {
@@ -17,7 +31,7 @@ float square_wave(float x, float width) {
 vec3 painted_colour(Finish finish, Painted painted) {
 #if INSTANCE_PICTURES
     if (finish.surface == SURFACE_IMAGE) {
-        vec4 paint = picture_light(instance_pictures, finish.image, vec2(painted.at.x + 0.5, painted.at.y), painted.right, painted.up);
+        vec4 paint = picture_light(instance_pictures, finish.image, vec2(painted.at.x - painted.left, painted.at.y), painted.right, painted.up);
         return paint.rgb + (1.0 - paint.a) * finish.colour;
     }
 #endif

@@ -34,7 +34,7 @@ help = "Whether it has the colours that its file gives its corners, if it gives 
 #include "common/surface.glsl"
 #include "common/hierarchy.glsl"
 
-// mesh_triangles, MESH_TEXELS to each: three corners, their normals, their colours (−1: none); w of the first six: texture coordinates.
+// mesh_triangles, MESH_TEXELS to each: three corners, their normals, their colours (−1: none); w of the first six: texture coordinates (the first −1e6: none).
 // A leaf of mesh_nodes holds 4·(number of its first triangle) + how many follow.
 
 // What a piece meets first of a mesh.
@@ -126,7 +126,9 @@ Light thing_mesh_light(int i, Sight sight) {
     Painted painted = Painted(
         mat3x2(first, second, third) * spot.shares,
         change_on(a, b, second - first, third - first, to_mesh(i, sight.right) / bound.w),
-        change_on(a, b, second - first, third - first, to_mesh(i, sight.up) / bound.w));
+        change_on(a, b, second - first, third - first, to_mesh(i, sight.up) / bound.w), 0.0);
+    vec4 attitude = thing_mesh_attitude(i);
+    if (first.x < -1e5) painted = globe_place(unturned(attitude, arm), unturned(attitude, sight.right), unturned(attitude, sight.up));
     Finish finish = thing_mesh_finish(i);
     if (thing_mesh_own_colours(i) && colours[0].x >= 0.0) finish.colour = colours * spot.shares;
     vec3 velocity = thing_mesh_velocity(i).xyz + cross(thing_mesh_spin(i).xyz, arm);

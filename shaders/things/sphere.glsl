@@ -27,18 +27,6 @@ float thing_sphere_crossing(int i, vec3 x, vec3 y, out bool enters) {
     return sphere_crossing(bound.xyz, bound.w, x, y, enters);
 }
 
-// Longitude and latitude at `arm` from the centre, in its own axes, and their changes: no angle is taken of a difference, so that there is no seam.
-Painted globe_place(vec3 arm, vec3 right, vec3 up) {
-    const float ROUND = 6.28318531;
-    float beside2 = max(dot(arm.xy, arm.xy), 1e-12 * dot(arm, arm)), beside = sqrt(beside2), whole2 = beside2 + arm.z * arm.z;
-    vec2 at = vec2(turns(arm.x, arm.y), 0.5 + 2.0 * turns(beside, arm.z));
-    vec2 change = vec2(arm.x * right.y - arm.y * right.x, 0.0) / (ROUND * beside2);
-    change.y = 2.0 * (beside * right.z - arm.z * dot(arm.xy, right.xy) / beside) / (ROUND * whole2);
-    vec2 other = vec2(arm.x * up.y - arm.y * up.x, 0.0) / (ROUND * beside2);
-    other.y = 2.0 * (beside * up.z - arm.z * dot(arm.xy, up.xy) / beside) / (ROUND * whole2);
-    return Painted(at, change, other);
-}
-
 Light thing_sphere_light(int i, Sight sight) {
     vec4 bound = thing_sphere_bound(i), attitude = thing_sphere_attitude(i);
     vec3 arm = sight.place - bound.xyz;

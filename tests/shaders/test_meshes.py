@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.render.frame import Renderer
@@ -65,6 +66,42 @@ def test_a_smooth_globe_shines_like_the_sphere(renderer: Renderer, tmp_path: Pat
     lit = light[1].max(axis=-1) > 0.0
     assert lit.sum() > 150 and light[1].max() > 0.2
     assert np.quantile(np.abs(light[0] - light[1])[lit], 0.9) < 0.02 * light[1].max()
+
+
+def _halves(path: Path) -> Path:
+    """A picture that is red on its left half, and green below on its right, blue above."""
+    picture = np.zeros((64, 128, 3), np.uint8)
+    picture[:, :64, 0] = picture[32:, 64:, 1] = picture[:32, 64:, 2] = 255
+    Image.fromarray(picture).save(path)
+    return path
+
+
+@pytest.mark.parametrize("look", [{"surface": "checker", "squares_around": 6}, {"surface": "image"}], ids=["checker", "image"])
+def test_a_mesh_without_texture_coordinates_is_painted_as_a_globe_is(renderer: Renderer, tmp_path: Path, look: dict) -> None:
+    values = {**look, "image": str(_halves(tmp_path / "halves.png")), "lighting": "glowing", "axis_tilt_deg": 30.0, "turn_deg": 70.0}
+    light = []
+    for thing in ({"kind": "mesh", "file": str(globe(tmp_path / "globe.obj", 60, 30)), "size": 2.0, "up": "z"}, {"radius": 2.0}):
+        renderer.render(_scene("flat", **thing, **values), 0.0, SIZE)
+        light.append(renderer.radiance())
+        met = renderer.hits().fate[::-1] == Fate.MET
+    apart = np.abs(light[0] - light[1]).max(axis=-1)[met]
+    assert met.sum() > 150 and np.ptp(light[1][met], axis=0).max() > 0.3
+    assert np.mean(apart > 0.05) < 0.1, "where the colour changes, and at the outline"
+
+
+def test_a_picture_lies_on_a_mesh_by_the_texture_coordinates_of_its_file(renderer: Renderer, tmp_path: Path) -> None:
+    """A square that faces the camera, the picture's left on its left."""
+    square = tmp_path / "square.obj"
+    corners, places = ((-1, -1), (1, -1), (1, 1), (-1, 1)), ((0, 0), (1, 0), (1, 1), (0, 1))
+    square.write_text("".join(f"v 0 {x} {y}\n" for x, y in corners) + "".join(f"vt {u} {v}\n" for u, v in places) + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
+    image = str(_halves(tmp_path / "halves.png"))
+    view = {"camera.azimuth_deg": 0.0, "camera.inclination_deg": 90.0, "things.moon.x": 8.0, "things.moon.y": 0.0, "things.moon.z": 0.0}
+    look = {"kind": "mesh", "file": str(square), "up": "z", "size": 3.0, "surface": "image", "image": image, "lighting": "glowing"}
+    renderer.render(_scene("flat", **look).with_values(view), 0.0, SIZE)
+    light, met = renderer.radiance(), renderer.hits().fate[::-1] == Fate.MET
+    row, column = (int(places.mean()) for places in np.nonzero(met))
+    seen = [[int(np.argmax(light[row + down, column + right])) for right in (-5, 5)] for down in (-5, 5)]
+    assert met.sum() > 150 and seen == [[0, 2], [0, 1]], "red on the left; on the right blue above, green below"
 
 
 def test_a_mesh_shows_its_own_colours_or_ours(renderer: Renderer) -> None:
