@@ -18,13 +18,18 @@ def _share(name: str, default: float, help: str) -> Field:
     return Field(name, "float", default, 0.0, 1.0, help=help)
 
 
+_IMAGE = (
+    "A picture of all longitudes and latitudes, north above; its middle lies at longitude 0. On a mesh it lies by the texture coordinates of its file, "
+    "if there are any."
+)
+
 _SURFACE = (
     Field("surface", "choice", "plain", options=("plain", "checker", "image", "black_body"), help="One colour, two, a picture, or a black body's glow."),
     _colour("colour", (0.85, 0.8, 0.7), "Red, green and blue of its surface, as shares of the light that falls on it; of its light, where it glows."),
     _colour("other_colour", (0.1, 0.2, 0.5), "The same of every other square."),
     Field("squares_around", "int", 16, 2, 720, help="How many squares go once around it. Odd numbers are rounded up, for the pattern to close."),
     Field("squares_along", "int", 8, 1, 360, help="How many squares lie between its poles."),
-    Field("image", "file", "", help="A picture of all longitudes and latitudes, north above; its middle lies at longitude 0. On a mesh that has texture coordinates, it lies by these.", suffixes=PICTURES),
+    Field("image", "file", "", help=_IMAGE, suffixes=PICTURES),
     Field("temperature_k", "float", 6000.0, 1000.0, 40000.0, "K", "Of a black body, at rest."),
     Field("lighting", "choice", "lit", options=("lit", "glowing"), help="By lamps, or without any from the camera; or it glows by itself."),
     Field("brightness", "float", 1.0, 0.0, 1000.0, help="Of light of its own; the disk's hottest ring has about 1."),
