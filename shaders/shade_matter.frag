@@ -22,7 +22,19 @@
 #include "common/disk_orbit.glsl"
 #include "common/disk_temperature.glsl"
 
-#if MEETINGS
+// STRETCHES: media are told by what stretches of the ray add, of hits that know of none.
+#if STRETCHES || MEETINGS && MEDIA && !THINGS
+#define BY_STRETCHES 1
+#else
+#define BY_STRETCHES 0
+#endif
+#if STRETCHES || MEETINGS
+#define IN_ORDER 1
+#else
+#define IN_ORDER 0
+#endif
+
+#if IN_ORDER
 layout(location = 0, index = 0) out vec4 radiance;
 layout(location = 0, index = 1) out vec4 passed;  // of what lies behind, per colour
 #else
@@ -108,6 +120,10 @@ Light pass_order(Light light, Hits hits, Crossing crossing, int n, DiskLight sen
     return after;
 }
 
+#if BY_STRETCHES || MEETINGS && MEDIA
+#include "common/stretches.glsl"
+#endif
+
 #if MEETINGS
 // What the thing that is meeting k adds, and what it lets through of what lies behind it.
 Light meeting_light(Hits hits, int k, Sight sight) {
@@ -117,17 +133,12 @@ Light meeting_light(Hits hits, int k, Sight sight) {
     return own;
 }
 
-#if MEDIA
-#include "common/stretches.glsl"
-
+#if MEDIA && THINGS
 // The light after the things and media before which `first` to `last` crossings of the disk's plane come; `own`, that of each thing. Where a thing lets light through
 // within a medium, all of the stretch of the medium counts as before it.
 Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
     for (int before = first; before <= min(last, ORDERS); ++before) {
         Light stretch = stretch_light(ivec2(gl_FragCoord.xy), before);
-#if THINGS == 0
-        light = behind(light, stretch);  // what is met need not be read
-#else
         bool within = false;  // a medium, from the last crossing on
         for (int k = 0; k < MEETINGS; ++k) within = within || is_medium(hits.meeting[k].kind) && hits.meeting[k].before < before;
         if (within) light = behind(light, stretch);
@@ -135,11 +146,10 @@ Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int 
             Meeting met = hits.meeting[k];
             if (met.kind >= 0 && met.before == before) light = behind(light, is_medium(met.kind) ? stretch : own[k]);
         }
-#endif
     }
     return light;
 }
-#else
+#elif !MEDIA
 // The light after the meetings before which `first` to `last` crossings of the disk's plane come; `own`, that of each.
 Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int last) {
     for (int k = 0; k < MEETINGS; ++k) {
@@ -151,6 +161,14 @@ Light pass_meetings(Light light, Hits hits, Light own[MEETINGS], int first, int 
     return light;
 }
 #endif
+#endif
+
+#if BY_STRETCHES
+// The light after the media before which `first` to `last` crossings of the disk's plane come.
+Light pass_media(Light light, int first, int last) {
+    for (int before = first; before <= min(last, ORDERS); ++before) light = behind(light, stretch_light(ivec2(gl_FragCoord.xy), before));
+    return light;
+}
 #endif
 
 void main() {
@@ -166,17 +184,22 @@ void main() {
     if (!counts) { first = second; second = third; order = order.yzx; counts = more; more = last; last = false; }
 
     Light light = Light(vec3(0.0), vec3(1.0));
-#if MEETINGS
-    Light own[MEETINGS];
-    for (int k = 0; k < MEETINGS; ++k) own[k] = meeting_light(hits, k, sight_of(hits.meeting[k], sent.energy));
+#if IN_ORDER
     int gone = 0;  // crossings
 #endif
-#if MEETINGS == 0 || ORDERS > 0
+#if MEETINGS && !BY_STRETCHES
+    Light own[MEETINGS];
+    for (int k = 0; k < MEETINGS; ++k) own[k] = meeting_light(hits, k, sight_of(hits.meeting[k], sent.energy));
+#define PASS_BEFORE(light, first, last) pass_meetings(light, hits, own, first, last)
+#elif BY_STRETCHES
+#define PASS_BEFORE(light, first, last) pass_media(light, first, last)
+#endif
+#if !IN_ORDER || ORDERS > 0
     bool left;
     do {
-#if MEETINGS
+#if IN_ORDER
         int upto = counts ? order.x : -1;
-        light = pass_meetings(light, hits, own, gone, upto);
+        light = PASS_BEFORE(light, gone, upto);
         gone = max(gone, upto + 1);
         Light after = pass_order(light, hits, first, order.x, sent);
         if (counts) light = after;
@@ -192,8 +215,8 @@ void main() {
         last = false;
     } while (left);
 #endif
-#if MEETINGS
-    light = pass_meetings(light, hits, own, gone, 3);
+#if IN_ORDER
+    light = PASS_BEFORE(light, gone, 3);
     passed = vec4(light.passed, 1.0);
 #endif
     radiance = vec4(clamp(light.gathered, 0.0, BRIGHTEST), light.passed.x);

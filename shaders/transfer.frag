@@ -5,6 +5,9 @@
 // where that is what flat space has), to where it leaves all media for good, falls into the hole, meets the opaque thing that the hit map has it end on, or next to
 // nothing comes through any more. So several media may overlap, and be met again on the far side of a hole.
 //
+// GRID: rays are those of a grid of pixels, with a footprint of their own (blackhole_gl/render/coarse_transfer.py). FROM_CAMERA: the hit map knows of no media, and every ray
+// is marched from the camera.
+//
 // With s the affine parameter of a photon that has E = 1 far away and shift = E_∞/E in the matter's frame, ds/shift is the way that the matter sees, and
 //     dI = (shift·E_observer/E_∞)^p emission ds/shift − I absorption ds/shift        p: 4 of all frequencies, 3 of one
 // A piece of the ray is solved exactly for coefficients that are the same all along it: the means by Simpson's rule,
@@ -202,6 +205,17 @@ void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int 
     }
 }
 
+#if GRID
+uniform vec2 ray_spacing;  // pixels from ray to ray, and how many a footprint is wide
+
+// What is alike all along a ray of a grid; a pixel is as wide as it is at the hole.
+Sight sight_of_grid(vec2 energy) {
+    vec3 wide = vec3(ray_spacing.y * picture_scale / camera_w, 0.0, 0.0);
+    return Sight(vec3(0.0), vec3(0.0), energy.x, energy.y, true, Momentum(0.0, vec3(0.0)), wide, wide);
+}
+#endif
+
+#if !FROM_CAMERA
 RayStart start_at(Meeting met, float energy) {
     float r = length(met.place);
     RayStart ray;
@@ -216,6 +230,7 @@ RayStart start_at(Meeting met, float energy) {
     ray.lambda = -energy * ray.sine * dot(ray.n_rate, ray.e_phi);
     return ray;
 }
+#endif
 
 // A surface ahead: clear up to it, and the little that it lies in, in the parameter of the march. `within` 0: none is known of.
 struct Surface {
@@ -245,28 +260,44 @@ void main() {
 #if ROWS_HELD
     read_rows();  // a parameter is a texel, and asked for in every step
 #endif
-    Hits hits = fetch_hits(ivec2(gl_FragCoord.xy));
-    vec3 local = pixel_direction(picture_place(gl_FragCoord.xy));
+#if GRID
+    ivec2 pixel = ivec2(min(ray_spacing.x * floor(gl_FragCoord.xy), vec2(textureSize(hits0, 0) - 1)));
+#else
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+#endif
+    vec3 local = pixel_direction(picture_place(vec2(pixel) + 0.5)), end = vec3(1e15);
+#if FROM_CAMERA
+    Hits hits = fetch_escape(pixel);
+    RayStart start = ray_start(local);
+    bool any = true;
+    int stretch = 0;
+#else
+    Hits hits = fetch_hits(pixel);
     Meeting met = hits.meeting[0];
-    vec3 end = vec3(1e15);
     for (int k = 0; k < MEETINGS; ++k) {
         Meeting found = hits.meeting[k];
         if (is_medium(found.kind)) met = found;
         if (found.kind >= 0 && hits.fate == MET) end = found.place;
     }
+    RayStart start = start_at(met, ray_start(local).energy);
     bool any = is_medium(met.kind);
+    int stretch = min(met.before, ORDERS);
+#endif
+#if GRID
+    Sight first = sight_of_grid(pixel_energies(local));
+#else
     Sight first = sight_of(met, pixel_energies(local));
+#endif
 
     Light light[ORDERS + 1];
     for (int n = 0; n <= ORDERS; ++n) light[n] = Light(vec3(0.0), vec3(1.0));
     vec3 left = vec3(1.0);
-    int stretch = min(met.before, ORDERS);
 
-    RayStart start = start_at(met, ray_start(local).energy);
     Orbit orbit = ray_orbit(start);
     State s = ray_init(start, orbit, hits);
     Here here = here_at(orbit, s, first, end, left);
     bool over = !any;
+    int surfaces = 0;  // of media that it leaves; whether it goes into the one that it begins at is rounding
     int pieces = 0;  // of which light has been gathered; kept as the first alpha, for tests and charts
     for (int i = 0; i < MOST_VISITS; ++i) {
         cross_gap(orbit, s, here, end, stretch, over);
@@ -285,6 +316,7 @@ void main() {
                 break;
             }
             ++pieces;
+            surfaces += across && (here.within & ~there.within) != 0 ? 1 : 0;
             float share = here.edge / max(here.edge + there.edge, 1e-20);  // of a piece with a surface in it that is as it begins
             vec3 gains = across ? mix(there.gains, here.gains, share) : (here.gains + 4.0 * between.gains + there.gains) * (1.0 / 6.0);
             vec3 loses = across ? mix(there.loses, here.loses, share) : (here.loses + 4.0 * between.loses + there.loses) * (1.0 / 6.0);
@@ -318,7 +350,7 @@ void main() {
         if (over || pieces >= MOST_STEPS_ON) break;
     }
     gathered0 = vec4(light[0].gathered, float(pieces));
-    passed0 = vec4(light[0].passed, 1.0);
+    passed0 = vec4(light[0].passed, float(hits.fate + 8 * (min(surfaces, 31) + 32 * stretch)));  // the ray's history, for transfer_marks.frag
 #if ORDERS > 0
     gathered1 = vec4(light[1].gathered, 1.0);
     passed1 = vec4(light[1].passed, 1.0);

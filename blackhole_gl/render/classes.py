@@ -22,6 +22,8 @@ class Where:
 
 
 MATTER = Where(">", PixelClass.MATTER.depth_beyond)
+BEYOND_MATTER = Where("<", PixelClass.MATTER.depth_beyond)
+"""All but those of `MATTER`."""
 SKY = Where(">", PixelClass.SKY.depth_beyond)
 FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1)
 """Those of things too: what is drawn for them has to come later."""

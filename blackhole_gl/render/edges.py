@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 
 from .classes import Where, drawn
+from .coarse_transfer import CoarseMedia
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
 from .hit_map import HitMap
@@ -59,11 +60,12 @@ class EdgeRays:
         """Column and row of each pixel with several rays, from the bottom left, int (N, 2)."""
         return np.empty((0, 2), int) if self._held is None else self._held.pixels
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, moving: bool = False) -> None:
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, moving: bool = False, coarse: CoarseMedia | None = None) -> None:
         """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`.
 
         Args:
             moving: fewer rays will do, as for every map that is not sharp.
+            coarse: media that are drawn at a resolution of their own; here each ray has its own.
         """
         moving = moving or not hit_map.is_sharp
         side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=moving)
@@ -75,7 +77,8 @@ class EdgeRays:
             self._key = key
         if self._blocks is None or self._radiance is None or self._places is None:
             return
-        self._shade.draw(inputs.drawn_as(self._blocks.size), self._map, self._radiance.frame)
+        size = self._blocks.size
+        self._shade.draw(inputs.drawn_as(size), self._map, self._radiance.frame, coarse.drawn_as(size) if coarse else None)
         resolve = self._programs.get("edge_resolve.frag", inputs)
         resolve.set(pairs=self._blocks.side // 2)
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})

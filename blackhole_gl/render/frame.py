@@ -13,7 +13,8 @@ import numpy as np
 from ..plan import Plan
 from ..plan import plan as make_plan
 from ..scene import Scene
-from . import diagnostics, instance_numbers, instances, kept_light, listed, pixel_values, supersampling, views
+from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, pixel_values, supersampling, views
+from .coarse_transfer import CoarseMedia
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -70,7 +71,7 @@ class Renderer:
     Attributes:
         programs: the compiled programs; ``programs.reload()`` takes up changed shader files.
         hit_map: the last trace.
-        transfer: what the media of the last picture add to each ray.
+        transfer, coarse_transfer: what the media of the last picture add to each ray, drawn as exactly as the rest or at a resolution of their own.
         edges: the pixels of the last picture that have several rays.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
         exposure: what makes automatic exposure up.
@@ -86,7 +87,7 @@ class Renderer:
         self._sample_map = HitMap(ctx, self.programs, self._tables)
         self._mean = supersampling.Mean(ctx)
         self._shade = ShadePass(ctx, self.programs, self._tables, self._temperatures)
-        self.transfer = self._shade.transfer
+        self.transfer, self.coarse_transfer = self._shade.transfer, self._shade.coarse_transfer
         self.edges = EdgeRays(ctx, self.programs, self._tables, self._temperatures, self._shade.sorting)
         self._views = diagnostics.ViewPass(ctx, self.programs, self._temperatures)
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
@@ -131,12 +132,14 @@ class Renderer:
         """
         stamps = [clock.perf_counter()]
         shown = shown if keeps_stars(scene) else None
-        inputs = self._last = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
-        traced = self._trace(inputs, progressive=progressive and not diagnostics.is_on(scene))
+        inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
+        coarse = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
+        rest = self._last = coarse_transfer.rest_of(inputs, make_plan) if coarse is not None and progressive else inputs
+        traced = self._trace(rest, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
-        radiance = self._kept_or_shaded(inputs, moving=progressive or thing_moved)
+        radiance = self._kept_or_shaded(rest, coarse, moving=progressive or thing_moved or coarse is not None)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -334,19 +337,22 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _kept_or_shaded(self, inputs: FrameInputs, *, moving: bool) -> Target:
+    def _kept_or_shaded(self, inputs: FrameInputs, coarse: CoarseMedia | None, *, moving: bool) -> Target:
         """`_shaded_with_edges` of the own hit map, unless that is what the radiance holds."""
-        made = self._light_key(inputs, moving)
+        made = self._light_key(inputs, coarse, moving)
         if self._radiance is None or made is None or made != self._radiance_key:
-            self._shaded_with_edges(inputs, moving=moving)
-            self._radiance_key = self._light_key(inputs, moving)  # programs may have been compiled
+            self._shaded_with_edges(inputs, coarse, moving=moving)
+            self._radiance_key = self._light_key(inputs, coarse, moving)  # programs may have been compiled
         return _drawn(self._radiance)
 
-    def _light_key(self, inputs: FrameInputs, moving: bool) -> tuple | None:
-        return kept_light.key(inputs, self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, self._tables.pictures.made)
+    def _light_key(self, inputs: FrameInputs, coarse: CoarseMedia | None, moving: bool) -> tuple | None:
+        own = self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, self._tables.pictures.made
+        key = kept_light.key(inputs, *own)
+        media = kept_light.key(coarse.inputs, coarse.step) if coarse is not None else ()
+        return None if key is None or media is None else (key, media)
 
-    def _shaded(self, inputs: FrameInputs, hit_map: HitMap) -> Target:
-        """The radiance that the hits of `hit_map` have in the scene."""
+    def _shaded(self, inputs: FrameInputs, hit_map: HitMap, coarse: CoarseMedia | None = None) -> Target:
+        """The radiance that the hits of `hit_map` have in the scene, with media that may be `coarse`."""
         self._radiance_key = None
         self.shadings += 1
         if self._radiance is None or self._radiance.size != inputs.size:
@@ -354,14 +360,14 @@ class Renderer:
         if diagnostics.is_on(inputs.plan.scene):
             self._views.draw(inputs, hit_map, self.reference_map, self._radiance.frame)
         else:
-            self._shade.draw(inputs, hit_map, self._radiance.frame)
+            self._shade.draw(inputs, hit_map, self._radiance.frame, coarse)
         return self._radiance
 
-    def _shaded_with_edges(self, inputs: FrameInputs, *, moving: bool = False) -> Target:
+    def _shaded_with_edges(self, inputs: FrameInputs, coarse: CoarseMedia | None = None, *, moving: bool = False) -> Target:
         """The same of the own hit map, with several rays in the pixels at edges."""
-        radiance = self._shaded(inputs, self.hit_map)
+        radiance = self._shaded(inputs, self.hit_map, coarse)
         if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance, moving=moving)
+            self.edges.draw(inputs, self.hit_map, radiance, moving=moving, coarse=coarse)
         return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:

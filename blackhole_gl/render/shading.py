@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
-from .classes import EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
+from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
+from .coarse_transfer import CoarseMedia, CoarseTransfer
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
@@ -20,6 +21,9 @@ from .temperatures import TemperatureProfile
 from .transfer import TransferPass
 
 _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
+
+_STRETCHES = {"STRETCHES": 1}
+"""The switch of what reads the light of media and has hits that know of none."""
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
@@ -37,7 +41,7 @@ class ShadePass:
 
     Attributes:
         sorting: of the pixels of sharp maps.
-        transfer: what the media of the last frame add.
+        transfer, coarse_transfer: what the media of the last frame add, drawn as exactly as the rest or at a resolution of their own.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables, temperatures: TemperatureProfile):
@@ -45,6 +49,8 @@ class ShadePass:
         self._tables, self._temperatures = tables, temperatures
         self.sorting = PixelSorting(ctx, programs)
         self.transfer = TransferPass(ctx)
+        self.coarse_transfer = CoarseTransfer(ctx, programs)
+        self._stretches: Mapping[str, moderngl.Texture] = {}  # what the media of this frame add
         self._sorted: Sorted | None = None  # the pixels of the last sharp map
         self._boxes: dict[Where, Box] = {}  # not known before the second frame of the same pixels
         self._frame: moderngl.Framebuffer | None = None
@@ -54,12 +60,22 @@ class ShadePass:
         self._sky_generation = 0
         self._sky_kept = False
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer) -> None:
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, coarse: CoarseMedia | None = None) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size). Alpha: the share of the sky's light that comes through, where single stars were left
-        out because the picture is to be shown enlarged; else 0, or without meaning in a picture that is not."""
+        out because the picture is to be shown enlarged; else 0, or without meaning in a picture that is not.
+
+        Args:
+            coarse: media that are drawn at a resolution of their own. They need not be in `inputs`, nor met in `hit_map`: then they are put before all of it.
+        """
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
-        if inputs.plan.scene.media:
+        self._stretches = {}
+        apart = coarse is not None and not inputs.plan.scene.media
+        if coarse is not None:
+            self.coarse_transfer.draw(coarse, hit_map, self._samplers(coarse.inputs, hit_map), apart=apart)
+            self._stretches = self.coarse_transfer.samplers
+        elif inputs.plan.scene.media:
             self._march_media(inputs, hit_map, classes)
+            self._stretches = self.transfer.samplers
         frame = self._attached(target, classes)
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
@@ -67,7 +83,9 @@ class ShadePass:
         frame.use()
         ctx.enable(moderngl.BLEND)
         if inputs.plan.orders:
-            self._draw_matter(inputs, hit_map, MATTER, NO_THINGS, moderngl.SRC_ALPHA)
+            self._draw_matter(inputs, hit_map, MATTER, *((_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)))
+        if apart:
+            self._draw_media(inputs, hit_map)
         if inputs.plan.meetings:
             self._draw_matter(inputs, hit_map, THINGS, {}, _SECOND_OUTPUT)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
@@ -82,6 +100,11 @@ class ShadePass:
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
         self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else None)
+
+    def _draw_media(self, inputs: FrameInputs, hit_map: HitMap) -> None:
+        """The media where no disk is seen, before all else."""
+        self._ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
+        self._draw_classes(self._prepared("shade_media.frag", inputs, hit_map, hit_map.switches()), BEYOND_MATTER if inputs.plan.orders else EVERYWHERE)
 
     def _march_media(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> None:
         march = self._prepared("transfer.frag", inputs, hit_map, hit_map.switches())
@@ -149,6 +172,7 @@ class ShadePass:
         self._release_targets()
         self.sorting.release()
         self.transfer.release()
+        self.coarse_transfer.release()
         self._sorted = None
 
     def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
@@ -175,8 +199,8 @@ class ShadePass:
         if inputs.plan.meetings:
             found |= {**hit_map.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
         if scene.media:
-            found |= {**self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene), **self.transfer.samplers}
-        return {**found, "temperature_profile": self._temperatures.of(inputs.plan)}
+            found |= self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene)
+        return {**found, **self._stretches, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _draw_classes(self, prepared: Draw, where: Where, box: Box | None = None, squares: Squares | None = None) -> None:
         """Draws `where` the pixel's class says, inside `box` or in `squares` alone, if such are given."""

@@ -134,6 +134,10 @@ def _of_instances() -> Iterator[Wanted]:
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
+            drawn += [("transfer.frag", {"GRID": 1, "FROM_CAMERA": apart, "HIT_MAP_REFINED": apart}) for apart in (0, 1) if slot == "medium"]
+            drawn += [(path, {}) for path in ("transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
+            drawn += [("shade_matter.frag", {"STRETCHES": 1, "MEETINGS": 0, "HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
+            drawn += [("transfer.frag", {"ROWS_HELD": 1})] if slot == "medium" else []
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1}), ("trace.frag", beside_none)):
                 yield path, f"{kind} by {model}", made, switches
             if made.integrator is not None:  # rays in closed form are not looked for coarsely
