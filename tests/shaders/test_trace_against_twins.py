@@ -156,3 +156,16 @@ def _agree(found: listed_rays.TracedRays, twin: listed_rays.TracedRays, name: st
 def _quantile(error: np.ndarray) -> float:
     """The 99 % quantile of what is there; 0 where nothing is."""
     return float(np.nanquantile(error, 0.99)) if np.any(~np.isnan(error)) else 0.0
+
+
+@pytest.mark.parametrize("model", ["kerr", "schwarzschild_binet"])
+def test_nearly_radial_rays_from_far_away_enter_a_medium_where_its_surface_is(renderer: Renderer, model: str) -> None:
+    """A ball on the line of sight; their first step leads from infinity past it."""
+    centre = 1.5 * np.array([np.sqrt(3.0), 0.0, 1.0])
+    ball = {"media.fog.kind": "ball", "media.fog.radius": 1.5, **{f"media.fog.{axis}": float(at) for axis, at in zip("xyz", centre)}}
+    scene = presets.load(["kerr"], {"rays.model": model, "camera.distance": float("inf"), "camera.inclination_deg": 60.0, **ball})
+    rays = np.outer([1e-6, 1e-4, 1e-2, 0.3, 2.0], [0.6, 0.8])
+    hits = renderer.trace_listed(scene, listed_rays.local_vectors(rays, scene))[0]
+    assert hits.met is not None and hits.met_place is not None and np.all(hits.met[:, 0, 0] >= 0)
+    off = np.abs(np.linalg.norm(hits.met_place[:, 0] - centre, axis=-1) - 1.5)
+    assert off.max() < 1e-5  # as places of things are; 4e-7 was found
