@@ -9,6 +9,8 @@ from functools import lru_cache
 import numpy as np
 
 from ..scene import Scene, met
+from ..scene.instances import Instances
+from ..scene.plug_in import PlugIn
 from . import instances, reach
 from .inputs import FrameInputs
 
@@ -42,15 +44,19 @@ NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int))
 """Where rays meet the disk and the hole alone."""
 
 
-@lru_cache(maxsize=met.SCENES_KEPT)
 def _fills(scene: Scene) -> np.ndarray:
-    kinds = {(kind.slot, kind.key): (number, kind) for number, kind in enumerate(instances.used(scene))}
-    found: list[int] = []
-    for slot in met.SLOTS:
-        met_before: Counter[str] = Counter()
-        for one in met.instances(scene, slot):
-            number, kind = kinds[slot, one.kind]
-            fills = slot == "thing" and kind.traits.round and kind.traits.opaque
-            found.append(1 + number + 32 * met_before[one.kind] if fills else 0)
-            met_before[one.kind] += 1
-    return np.array(found, int)
+    return _fills_of(scene.things, tuple(met.kinds(scene, "thing")), len(scene.media))
+
+
+@lru_cache(maxsize=met.SCENES_KEPT)
+def _fills_of(things: Instances, kinds: tuple[PlugIn, ...], media: int) -> np.ndarray:
+    """Kept by the scene's instances: while only the camera moves they are the same object."""
+    numbers = {kind.key: number for number, kind in enumerate(kinds)}
+    filling = {kind.key for kind in kinds if kind.traits.round and kind.traits.opaque}
+    met_before: Counter[str] = Counter()
+    found = np.zeros(len(things) + media, int)
+    for place, one in enumerate(things.values()):
+        if one.kind in filling:
+            found[place] = 1 + numbers[one.kind] + 32 * met_before[one.kind]
+        met_before[one.kind] += 1
+    return found
