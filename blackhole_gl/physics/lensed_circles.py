@@ -19,8 +19,8 @@ from .relativity import critical_curve, horizon_radius
 
 Array = np.ndarray
 
-_HALVINGS = 4  # of τ, until Laurent's series of ℘ converges quickly
 _TERMS = 12
+_SERIES_REACH = 0.33  # of the length that the invariants give, a quarter of a period: there the terms left out are below 1e-15
 _LOOKS = 24  # along a ray, for its end: the shortest way through the hole or infinity and back takes several of them
 _BISECTIONS = 20  # of half a turn: 3e-6 rad, an eighth of a pixel where a picture 720 high shows a degree
 _AT_ONCE = 300  # places that are looked at in hardly more time than one
@@ -250,8 +250,15 @@ def _inverse_radius(rays: Light, time: Float[Array, "*rays times"]) -> Float[Arr
 
 
 def weierstrass(z: Float[Array, "*at"], g2: Float[Array, "*with"], g3: Float[Array, "*with"]) -> tuple[Float[Array, "*all"], Float[Array, "*all"]]:
-    """℘ and ℘' at real z ≠ 0 with the invariants `g2`, `g3`: Laurent's series near 0, then the duplication of the argument."""
-    near = z / 2.0**_HALVINGS
+    """℘ and ℘' at real z ≠ 0 with the invariants `g2`, `g3`: Laurent's series near 0, then the duplication of the argument.
+
+    Each duplication makes relative errors of ℘' seventeen times as large, and so there are no more than the series needs.
+    """
+    scale = np.maximum(np.abs(g2 / 20.0) ** 0.25, np.abs(g3 / 28.0) ** (1.0 / 6.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        halvings = np.maximum(np.ceil(np.log2(np.abs(z) * scale / _SERIES_REACH)), 0.0)
+    halvings = np.where(np.isfinite(halvings), halvings, 0.0)  # of no number nothing comes
+    near = z / 2.0**halvings
     square = near**2
     coefficients = [g2 / 20.0, g3 / 28.0]
     for k in range(4, _TERMS + 2):
@@ -263,10 +270,10 @@ def weierstrass(z: Float[Array, "*at"], g2: Float[Array, "*with"], g3: Float[Arr
         rate = rate + (2 * k - 2) * coefficient * power * near
         power = power * square
         value = value + coefficient * power
-    for _ in range(_HALVINGS):
-        bend = 6.0 * value**2 - 0.5 * g2
-        ratio = bend / rate
+    for done in range(int(halvings.max(initial=0.0))):
+        ratio = (6.0 * value**2 - 0.5 * g2) / rate
         doubled = 0.25 * ratio**2 - 2.0 * value
-        rate = ratio * (value - doubled) - rate
-        value = doubled
+        goes_on = done < halvings
+        rate = np.where(goes_on, ratio * (value - doubled) - rate, rate)
+        value = np.where(goes_on, doubled, value)
     return value, rate
