@@ -11,7 +11,7 @@ from .scene import Scene, SceneError
 from .scene import presets as preset_files
 
 if TYPE_CHECKING:
-    from .render.frame import Renderer
+    from .rendering.frame import Renderer
 
 Named = Annotated[
     list[str] | None,
@@ -54,7 +54,7 @@ def refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
     Raises:
         SceneError: it is below the floor.
     """
-    from .plan import choice
+    from .planning import choice
 
     made = choice.choose(scene)
     if not made.meets and "rays.tolerance" in preset_files.parse_assignments(assignments or ()):
@@ -64,7 +64,7 @@ def refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
 
 def tell_warnings(scene: Scene) -> None:
     """Says what makes the picture worse than the scene asks."""
-    from .plan import plan as make_plan
+    from .planning import plan as make_plan
 
     for warning in make_plan(scene).warnings:
         print(f"blackhole-gl: {warning}", file=sys.stderr)
@@ -97,7 +97,7 @@ def renderer_by(backend: str) -> Renderer:
     Raises:
         ContextError: there is no such way on this machine.
     """
-    from .render.context import create_headless
-    from .render.frame import Renderer
+    from .rendering.context import create_headless
+    from .rendering.frame import Renderer
 
     return Renderer(create_headless(backend))

@@ -23,7 +23,7 @@ _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--fl
 def main() -> None:
     """Runs the command line; mistakes end in one sentence and exit status 2."""
     from .glsl.compose import ShaderError
-    from .render.context import ContextError
+    from .rendering.context import ContextError
 
     streams.prepare()
     try:
@@ -140,7 +140,7 @@ def plan(
     backend: Backend = "auto",
 ) -> None:
     """Say how a scene's rays are traced, why, and what error and cost to expect. A tolerance that cannot be met is refused."""
-    from . import plan as planning
+    from . import planning
 
     preset = [*(names or ()), *(preset or ())]
     scene = scene_of(preset, set_, any_file)
@@ -250,7 +250,7 @@ def _last_scene() -> tuple[Scene, float] | None:
 
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
     from .output import png
-    from .render.annotation import annotated
+    from .rendering.annotation import annotated
 
     tell_warnings(scene)
     renderer = renderer_by(backend)

@@ -17,8 +17,8 @@ from .glsl.declared import Fate
 from .output.files import write_whole
 from .physics import observer, observer_frames, tilted_disk
 from .physics.space_time import ray_model, space_time
-from .plan import plan
-from .render.frame import Renderer
+from .planning import plan
+from .rendering.frame import Renderer
 from .scene import Camera, Disk, Scene, met
 from .shapes import Float, Int
 from .text_files import TextError, decimal_comma, read_text

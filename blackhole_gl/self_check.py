@@ -12,8 +12,8 @@ import moderngl
 import numpy as np
 
 from . import listed_rays
-from .render import context
-from .render.frame import Renderer
+from .rendering import context
+from .rendering.frame import Renderer
 from .scene import presets
 from .worker import Worker
 

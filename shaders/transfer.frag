@@ -5,7 +5,7 @@
 // where that is what flat space has), to where it leaves all media for good, falls into the hole, meets the opaque thing that the hit map has it end on, or next to
 // nothing comes through any more. So several media may overlap, and be met again on the far side of a hole.
 //
-// GRID: rays are those of a grid of pixels, with a footprint of their own (blackhole_gl/render/coarse_transfer.py). FROM_CAMERA: the hit map knows of no media, and every ray
+// GRID: rays are those of a grid of pixels, with a footprint of their own (blackhole_gl/rendering/coarse_transfer.py). FROM_CAMERA: the hit map knows of no media, and every ray
 // is marched from the camera.
 //
 // With s the affine parameter of a photon that has E = 1 far away and shift = E_∞/E in the matter's frame, ds/shift is the way that the matter sees, and

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from blackhole_gl import resources
 from blackhole_gl.output.progress import Progress
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 
 from . import run
 from .pictures import library

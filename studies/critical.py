@@ -10,7 +10,7 @@ from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import angles_between
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene, critical_radius, true_scene
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 
 SCENES = ("a0_near", "a0998_near")
 _PER_DISTANCE = 16

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.physics import observer
-from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import Scene
 
 
@@ -20,7 +20,7 @@ def displacement_px(scene: Scene, found: HitArrays, exact: HitArrays) -> np.ndar
     """
     height = found.fate.shape[0]
     pixel = math.radians(scene.camera.fov_deg) / height
-    made = plan.plan(scene)
+    made = planning.plan(scene)
     edges = made.disk_inner, made.disk_outer
     escaped = (found.fate == 1) & (exact.fate == 1)
     moved = np.where(escaped, np.linalg.norm(found.direction - exact.direction, axis=-1), 0.0)

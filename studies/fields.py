@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from blackhole_gl import listed_rays, plan
+from blackhole_gl import listed_rays, planning
 from blackhole_gl.measure import timing
 from blackhole_gl.measure.errors import compare
 from blackhole_gl.measure.methods import MAX_STEPS, Combination, sensible
@@ -22,10 +22,10 @@ from blackhole_gl.measure.scenes import ChartScene
 from blackhole_gl.output.files import write_whole
 from blackhole_gl.output.progress import Progress
 from blackhole_gl.physics.space_time import is_field
-from blackhole_gl.plan import choice
-from blackhole_gl.plan.measured import COLUMNS, Measured
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import choice
+from blackhole_gl.planning.measured import COLUMNS, Measured
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, catalogue, met, presets
 from studies.table import Origin, origin, short, write_records
 
@@ -74,7 +74,7 @@ def _rows(renderer: Renderer, item: ChartScene) -> Iterator[Measured]:
 
 def _row(renderer: Renderer, item: ChartScene, method: Combination, setting: float) -> Measured:
     scene, camera = method.applied(item.scene, setting), item.scene.camera
-    made, flat = plan.plan(scene), plan.plan(timing.flat_scene(item.scene))
+    made, flat = planning.plan(scene), planning.plan(timing.flat_scene(item.scene))
     found = listed_rays.trace_by_shader(renderer, scene, item.rays)
     errors = compare(found, item.truth, np.ones(len(item.rays), bool))
     for uncounted in (flat, made):
@@ -91,7 +91,7 @@ def _row(renderer: Renderer, item: ChartScene, method: Combination, setting: flo
     )  # fmt: skip
 
 
-def _seconds(renderer: Renderer, made: plan.Plan) -> float:
+def _seconds(renderer: Renderer, made: planning.Plan) -> float:
     """Processor time of one trace, which other work on the machine disturbs less than the clock on the wall."""
     renderer.hit_map.forget()
     start = time.process_time()

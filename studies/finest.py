@@ -10,7 +10,7 @@ from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import LARGEST_DISK, angles_between
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import SHOWN, ChartScene
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 
 AWAY, CLOSE = 1e-2, 1e-6
 """ε from which errors, and from which fates count."""

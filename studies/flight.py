@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import Scene
 from studies.displacement import beside_an_edge, displacement_px
 from studies.flip import flip

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from blackhole_gl.output import png
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 from studies import flight, pictures, table
 from studies.flight import FlightFrame

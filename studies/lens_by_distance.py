@@ -9,7 +9,7 @@ import numpy as np
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import angles_between
 from blackhole_gl.measure.scenes import FULL_HD, ChartScene
-from blackhole_gl.plan import thin_lens
+from blackhole_gl.planning import thin_lens
 from blackhole_gl.scene import Scene
 
 DISTANCES = (30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0)

@@ -12,8 +12,8 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from blackhole_gl.render.context import create_headless, describe
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless, describe
+from blackhole_gl.rendering.frame import Renderer
 from studies import stability, stability_page
 from studies.stability_cases import CASES
 from studies.stability_viewer import VIEWER_CASES

@@ -8,13 +8,13 @@ from dataclasses import fields as record_fields
 
 import numpy as np
 
-from blackhole_gl import listed_rays, plan
+from blackhole_gl import listed_rays, planning
 from blackhole_gl.measure import refined, timing
 from blackhole_gl.measure.errors import compare
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene
-from blackhole_gl.plan.measured import Measured
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning.measured import Measured
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene
 
 # Of refined maps: frames so large are steady sooner than small ones.
@@ -161,7 +161,7 @@ def _costs(renderer: Renderer, base: Scene, scenes: list[Scene], timings: Timing
     The shortest time of each counts: what else a machine does can only lengthen a frame.
     """
     flat = timing.flat_scene(base)
-    plans, flat_plan = [plan.plan(scene) for scene in scenes], plan.plan(flat)
+    plans, flat_plan = [planning.plan(scene) for scene in scenes], planning.plan(flat)
     for made in (flat_plan, plans[0]):
         renderer.time_trace(made, timings.size)  # drivers compile at the first draw
     taken: list[list[float]] = [[] for _ in plans]

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from blackhole_gl.measure.scenes import ChartScene
-from blackhole_gl.plan import REFINE_STEP
-from blackhole_gl.plan.choice import REFINED_SIZE, REFINED_TOLERANCE
+from blackhole_gl.planning import REFINE_STEP
+from blackhole_gl.planning.choice import REFINED_SIZE, REFINED_TOLERANCE
 from studies.measure import Row
 from studies.table import short
 

@@ -12,7 +12,7 @@ from PIL import Image
 
 from blackhole_gl.measure.scenes import SHOWN, ChartScene
 from blackhole_gl.output.files import write_whole
-from blackhole_gl.plan.choice import REFINED_SIZE
+from blackhole_gl.planning.choice import REFINED_SIZE
 from blackhole_gl.scene import catalogue
 from studies.critical import Point
 from studies.flight import FlightFrame

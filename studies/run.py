@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene, chart_scenes
 from blackhole_gl.output.files import write_whole
-from blackhole_gl.plan import choice
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import choice
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 from studies import critical, lens_by_distance, page, pictures, sizes, table
 from studies.cost_lines import by_work
@@ -58,7 +58,7 @@ def make(
     if plan_table is not None:
         table.write_contract(plan_table, by_work(rows), where)
         choice.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
-        plan.forget_measurements()
+        planning.forget_measurements()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE
     found = page.Findings(scenes, rows, points, costs, validation, best, chosen, lens, table.read(outside) if outside.exists() else [])
@@ -82,7 +82,7 @@ def plan_choices(rows: Sequence[Row], scenes: Sequence[ChartScene]) -> dict[str,
     found: dict[str, Row] = {}
     for chart_scene in scenes:
         if choice.is_open(chart_scene.scene):
-            chosen = plan.plan(chart_scene.scene).scene
+            chosen = planning.plan(chart_scene.scene).scene
             found |= {row.scene: row for row in rows if row.scene == chart_scene.name and _is_method_of(row, chosen)}
     return found
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.measure import timing
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.refined import refined_plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene
 
 SIZES = ((160, 90), (320, 180), (480, 270), (640, 360), (960, 540), (1280, 720))
@@ -41,7 +41,7 @@ def costs(renderer: Renderer, scene: Scene, quick: bool) -> list[Cost]:
     scenes = {name: method.applied(scene, setting) for name, (method, setting) in _METHODS.items()}
     found = []
     for size in SIZES[:3] if quick else SIZES:
-        work = {name: plan.plan(asked) for name, asked in {"flat": timing.flat_scene(scene), **scenes}.items()}
+        work = {name: planning.plan(asked) for name, asked in {"flat": timing.flat_scene(scene), **scenes}.items()}
         work["300 Euler steps"] = timing.euler_plan(scene)
         moving = {name: refined_plan(scenes[name]) for name, (method, _) in _METHODS.items() if method.refined}
         for name, taken in timing.interleaved(renderer, work | moving, size, "flat", rounds=3, refined=moving).items():

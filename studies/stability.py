@@ -18,8 +18,8 @@ from blackhole_gl import reference
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.physics import observer, relativity
 from blackhole_gl.physics.space_time import ray_model, space_time
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, catalogue, presets
 from blackhole_gl.scene.catalogue import PlugIn
 from blackhole_gl.scene.traits import RayModelTraits

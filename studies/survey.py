@@ -8,7 +8,7 @@ from blackhole_gl import listed_rays
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure.methods import Combination, exact_for, sensible, worth_refining
 from blackhole_gl.measure.scenes import ChartScene, chart_scenes
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import catalogue
 from studies.measure import FULL, QUICK, Row, measure
 from studies.work import Kept, key_of

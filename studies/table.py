@@ -14,7 +14,7 @@ from datetime import date
 from pathlib import Path
 
 from blackhole_gl.output.files import write_whole
-from blackhole_gl.plan import measured
+from blackhole_gl.planning import measured
 from studies.measure import COLUMNS, Row
 
 _DIGITS = 5

@@ -10,7 +10,7 @@ import numpy as np
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.methods import MAX_STEPS
 from blackhole_gl.physics import deflection, observer
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 DRIFT_STEPS = 1000

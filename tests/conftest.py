@@ -11,9 +11,9 @@ from tests import shape_checks  # noqa: F401  # before what it checks is importe
 import moderngl
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render.context import BACKENDS, ContextError, create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.context import BACKENDS, ContextError, create_headless
+from blackhole_gl.rendering.frame import Renderer
 
 _create_context, _created_in = moderngl.create_context, []
 

@@ -27,7 +27,7 @@ CHECKED = (
     "blackhole_gl.reference.schemes",
     "blackhole_gl.reference.tracing",
     "blackhole_gl.reference.weak_field",
-    "blackhole_gl.render.hit_texels",
+    "blackhole_gl.rendering.hit_texels",
 )
 
 _KINDS = ("Bool[", "Float[", "Int[")

@@ -21,8 +21,8 @@ import numpy as np
 from blackhole_gl import listed_rays
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure.scenes import critical_radius
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 OUT = Path(__file__).resolve().parents[1] / "docs" / "data" / "accuracy_outside.csv"

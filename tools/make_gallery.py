@@ -17,9 +17,9 @@ from pathlib import Path
 
 from PIL import Image
 
-from blackhole_gl.render.annotation import annotated
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.annotation import annotated
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 WINDOW = Path(__file__).resolve().parent / "window_pictures.py"

@@ -13,8 +13,8 @@ import time as clock
 from collections import defaultdict
 from functools import partial
 
-from blackhole_gl.render import frame, programs
-from blackhole_gl.render.context import create_headless
+from blackhole_gl.rendering import frame, programs
+from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.scene import presets
 
 TURN_DEG = 0.5  # between frames, in both angles

@@ -9,8 +9,8 @@ import argparse
 import time as clock
 from statistics import median
 
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, catalogue, presets
 
 STEP = 0.13  # r_s/c between frames: 30 frames a second at the default rate

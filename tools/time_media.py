@@ -13,8 +13,8 @@ import statistics
 import time as clock
 from collections import defaultdict
 
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 FRAMES = 2  # of a scene in a round

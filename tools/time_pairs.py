@@ -20,9 +20,9 @@ from typing import Any
 
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.targets import Drawing, Targets
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import FrameReport, Renderer
-from blackhole_gl.render.target import Target
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import FrameReport, Renderer
+from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 
 FRAME_S = 1.0 / 30.0  # between frames, of the window's time

@@ -12,10 +12,10 @@ from __future__ import annotations
 import argparse
 import time
 
-from blackhole_gl import listed_rays, plan
+from blackhole_gl import listed_rays, planning
 from blackhole_gl.measure import errors, scenes, timing
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene
 
 SIZE = (1280, 720)
@@ -34,7 +34,7 @@ def scene_of(way: str, scene: Scene) -> Scene:
 
 def least_costs(renderer: Renderer, ways: dict[str, Scene], rounds: int) -> dict[str, float]:
     """Processor time in ms of each way's trace; the first round, which compiles, does not count."""
-    plans = {way: plan.plan(scene) for way, scene in ways.items()}
+    plans = {way: planning.plan(scene) for way, scene in ways.items()}
     found = {way: float("inf") for way in ways}
     for counted in range(-1, rounds):
         for way in ways:

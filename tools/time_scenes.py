@@ -15,9 +15,9 @@ from statistics import median
 
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.targets import Drawing, Targets
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.target import Target
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 
 SHOWN = (1280, 720)

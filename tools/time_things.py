@@ -17,8 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 SPHERES = (10, 100, 1000)

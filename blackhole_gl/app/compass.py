@@ -12,7 +12,7 @@ import numpy as np
 
 from ..physics.observer import observe
 from ..physics.space_time import space_time
-from ..render.drawing_matrices import Axes, perspective, project, view_matrix
+from ..rendering.drawing_matrices import Axes, perspective, project, view_matrix
 from ..scene import Scene
 
 _PIECES = 48  # of the circle

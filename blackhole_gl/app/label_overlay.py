@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render import labels, polarized_disk, scale_bar
-from ..render.sheet import pieces
-from ..render.views import Colour
+from ..rendering import labels, polarized_disk, scale_bar
+from ..rendering.sheet import pieces
+from ..rendering.views import Colour
 from ..scene import Scene
 from . import theme
 from .overlay import Box, Corner

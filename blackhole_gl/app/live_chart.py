@@ -10,10 +10,10 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec4, hello_imgui, imgui, implot
 
-from .. import plan
+from .. import planning
 from ..measure import live
 from ..measure.live import Live, LivePoint
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import Scene, SceneError, catalogue
 from ..worker import Worker
 from . import theme, tool_window
@@ -161,7 +161,7 @@ def is_used(point: LivePoint, scene: Scene, ray_plan: Plan) -> bool:
 
 def _in_use(points: list[LivePoint], scene: Scene) -> list[LivePoint]:
     try:
-        ray_plan = plan.plan(scene)
+        ray_plan = planning.plan(scene)
     except SceneError:  # parts that do not fit together; the window says so
         return []
     return [point for point in points if is_used(point, scene, ray_plan)]

@@ -7,7 +7,7 @@ import math
 from imgui_bundle import hello_imgui, imgui
 
 from ..glsl.declared import Fate
-from ..render.pixel_values import PixelValues
+from ..rendering.pixel_values import PixelValues
 from . import overlay, theme
 from .overlay import Corner
 from .picture import Picture

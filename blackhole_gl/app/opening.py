@@ -8,7 +8,7 @@ from imgui_bundle import hello_imgui  # noqa: F401  before glfw: on Linux the fi
 import glfw
 import moderngl
 
-from ..render import context
+from ..rendering import context
 
 _LEAST = (3, 3)  # the OpenGL that the shaders need
 

@@ -9,7 +9,7 @@ from functools import cache
 
 from imgui_bundle import ImVec4, hello_imgui, imgui
 
-from .. import plan
+from .. import planning
 from ..physics.space_time import is_field
 from ..scene import Scene, catalogue, fields, instances, presets, sections
 from ..scene.schema import Field
@@ -160,7 +160,7 @@ def _table(name: str, items: Iterable[Field], state: WindowState, thumbnails: Th
             _subheading(*heading)
         in_force = state.in_force(item)
         ranged = range_in(scene, item if in_force == item.default else replace(item, default=in_force))
-        widgets.row(ranged, scene.get(item.key), state.change, plan.unfit_options(item.key, scene), thumbnails.draw)
+        widgets.row(ranged, scene.get(item.key), state.change, planning.unfit_options(item.key, scene), thumbnails.draw)
         sought.mark(state, item.key)
     imgui.end_table()
 

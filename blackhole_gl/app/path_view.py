@@ -12,8 +12,8 @@ import moderngl
 import numpy as np
 from imgui_bundle import ImVec4, hello_imgui, imgui, implot3d
 
-from ..render.recording import RayPath, Recorder
-from ..render.views import Scale, scale_of
+from ..rendering.recording import RayPath, Recorder
+from ..rendering.views import Scale, scale_of
 from ..scene import SceneError
 from . import path_world, theme, tool_window, view_scale
 from .area import Area

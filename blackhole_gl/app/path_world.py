@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..physics import relativity, tilted_disk
-from ..plan import plan as make_plan
+from ..planning import plan as make_plan
 from ..scene import Scene
 from ..shapes import Float, Int
 

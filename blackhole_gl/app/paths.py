@@ -10,9 +10,9 @@ from functools import cached_property
 import numpy as np
 
 from ..glsl.compose import ShaderError
-from ..plan import plan as make_plan
-from ..render.diagnostics import most_accurate
-from ..render.recording import RayPath, pixel_direction
+from ..planning import plan as make_plan
+from ..rendering.diagnostics import most_accurate
+from ..rendering.recording import RayPath, pixel_direction
 from ..scene import Scene, SceneError
 from ..shapes import Float
 

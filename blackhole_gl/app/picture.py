@@ -10,7 +10,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from ..render.programs import Unready
+from ..rendering.programs import Unready
 from ..scene import Scene
 from .adaptation import Adaptation
 from .area import Area

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from .. import plan
+from .. import planning
 from ..scene import Scene
 from .preparation import Preparation
 
@@ -24,17 +24,17 @@ class TracedBy:
     @classmethod
     def of(cls, asked: Scene, drawn: Scene) -> TracedBy:
         """That of `asked`, which was drawn as `drawn`."""
-        return cls(asked, plan.plan(drawn).scene)
+        return cls(asked, planning.plan(drawn).scene)
 
     def stated_in(self, scene: Scene) -> Scene | None:
         """`scene` traced in this way; None unless it is the scene asked for with another camera or hole, and of the same space-time."""
-        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or plan.plan(scene).scene.rays.model != self.stated.rays.model:
+        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or planning.plan(scene).scene.rays.model != self.stated.rays.model:
             return None
         return replace(scene, rays=self.stated.rays, parameters=self.stated.parameters)
 
     def bridges(self, scene: Scene) -> bool:
         """Whether `scene`, some program of which is missing, may be drawn in this way meanwhile: only where it is its method that is new."""
-        return self.stated_in(scene) is not None and plan.plan(scene).scene.rays != self.stated.rays
+        return self.stated_in(scene) is not None and planning.plan(scene).scene.rays != self.stated.rays
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from ..output import png
-from ..render.annotation import annotated
-from ..render.views import View
+from ..rendering.annotation import annotated
+from ..rendering.views import View
 from ..scene import Scene, presets
 from . import files_outside, preset_switch
 from .state import WindowState

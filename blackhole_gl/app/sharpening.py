@@ -5,7 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Callable
 
-from ..render import views
+from ..rendering import views
 from ..scene import Scene
 
 # A picture at rest that takes longer than this for one more ray a pixel, two times running, is left as it is, in seconds: meanwhile the window answers

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from .. import plan
-from ..render.diagnostics import most_accurate
+from .. import planning
+from ..rendering.diagnostics import most_accurate
 from ..scene import Scene, presets
 from .preset_switch import LAYERED
 from .state import WindowState
@@ -35,7 +35,7 @@ class Sides:
             SceneError: parts of `scene` do not fit together.
         """
         if self.kept is None:
-            exact = most_accurate(plan.plan(scene)).scene
+            exact = most_accurate(planning.plan(scene)).scene
             return replace(scene, rays=exact.rays, parameters=exact.parameters)
         return replace(self.kept, camera=scene.camera, playback=scene.playback).with_values({"post.view": scene.post.view})
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..output import png
-from ..render.annotation import annotated
-from ..render.views import View
+from ..rendering.annotation import annotated
+from ..rendering.views import View
 from ..scene import Scene, presets
 from .divided import RightSide, joined
 

@@ -9,7 +9,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from ..render.target import Target
+from ..rendering.target import Target
 from ..scene import Scene
 from .area import Area
 

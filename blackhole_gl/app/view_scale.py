@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from imgui_bundle import hello_imgui, imgui
 
-from ..render.views import Colour, Scale, View, tick_text
+from ..rendering.views import Colour, Scale, View, tick_text
 from . import overlay, theme
 
 _PIECES = 96

@@ -9,9 +9,9 @@ import time as clock
 from concurrent.futures import Future
 from functools import cache
 
-from ..render.context import create_headless
-from ..render.frame import Renderer
-from ..render.target import Target
+from ..rendering.context import create_headless
+from ..rendering.frame import Renderer
+from ..rendering.target import Target
 from ..scene import Scene
 from ..worker import Worker
 

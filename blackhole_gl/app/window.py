@@ -145,7 +145,7 @@ def run(
 
 
 def _default_renderer(gl: moderngl.Context) -> Any:
-    from ..render.frame import Renderer
+    from ..rendering.frame import Renderer
 
     return Renderer(gl)
 

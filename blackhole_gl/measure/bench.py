@@ -14,8 +14,8 @@ import time as clock
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 
-from .. import plan
-from ..render.frame import Renderer
+from .. import planning
+from ..rendering.frame import Renderer
 from ..scene import Scene
 from . import timing
 
@@ -141,7 +141,7 @@ def _rows(
     motion: str,
     size: tuple[int, int],
     rounds: int,
-    yardstick: plan.Plan | None,
+    yardstick: planning.Plan | None,
     euler_ms: list[float],
 ) -> list[Frames]:
     """The rows of one size and motion; E of every round, where there is a `yardstick`, is put into `euler_ms`."""
@@ -180,7 +180,7 @@ def _rows(
 
 
 def _method(scene: Scene, motion: str) -> str:
-    made = plan.plan(scene)
+    made = planning.plan(scene)
     return f"{made.method}, refined" if motion == "moving" and made.refine_px else made.method
 
 

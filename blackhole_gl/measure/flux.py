@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..physics import angular_size
-from ..plan import plan
-from ..render.frame import Renderer
+from ..planning import plan
+from ..rendering.frame import Renderer
 from ..scene import Camera, Scene, SceneError, met
 
 EMISSIVITY_UNIT = 1e-18

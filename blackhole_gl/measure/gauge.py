@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import listed_rays, plan
+from .. import listed_rays, planning
 from ..physics import observer
-from ..plan import choice
-from ..render.diagnostics import most_accurate
-from ..render.frame import Renderer
-from ..render.recording import pixel_direction
+from ..planning import choice
+from ..rendering.diagnostics import most_accurate
+from ..rendering.frame import Renderer
+from ..rendering.recording import pixel_direction
 from ..scene import Scene
 from . import timing
 from .errors import compare
@@ -59,7 +59,7 @@ def gauging(renderer: Renderer, scene: Scene, aspect: float) -> Iterator[Gauged 
     Raises:
         SceneError, ValueError: the scene cannot be traced.
     """
-    made, flat = plan.plan(scene), plan.plan(timing.flat_scene(scene))
+    made, flat = planning.plan(scene), planning.plan(timing.flat_scene(scene))
     for uncounted in (flat, made):
         renderer.time_trace(uncounted, _SIZE)
         yield None

@@ -17,10 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import listed_rays
-from .. import plan as planning
+from .. import listed_rays, planning
 from ..physics.space_time import is_field, ray_model
-from ..render.frame import Renderer
+from ..rendering.frame import Renderer
 from ..scene import Scene, SceneError, met
 from ..shapes import Float
 from .scenes import critical_radius

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from .. import listed_rays, plan
+from .. import listed_rays, planning
 from ..listed_rays import TracedRays
-from ..render.frame import Renderer
+from ..rendering.frame import Renderer
 from ..scene import Scene, met
 from ..worker import Worker
 from . import timing
@@ -131,7 +131,7 @@ class Live:
     def _measure(self, renderer: Renderer, method: Combination, setting: float, truth: _Truth) -> Iterator[None]:
         """One point; pauses after every bit."""
         scene = method.applied(self.scene, setting)
-        made, flat = plan.plan(scene), plan.plan(timing.flat_scene(self.scene))
+        made, flat = planning.plan(scene), planning.plan(timing.flat_scene(self.scene))
         if method not in self._compiled:  # drivers compile at the first draw
             self._compiled.add(method)
             for unmeasured in (flat, made):

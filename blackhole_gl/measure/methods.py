@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..physics.space_time import is_field
-from ..plan.choice import REFINED_TOLERANCE
+from ..planning.choice import REFINED_TOLERANCE
 from ..scene import Scene, catalogue
 from ..scene.catalogue import PlugIn
 from ..scene.traits import RayModelTraits

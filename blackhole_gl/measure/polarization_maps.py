@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..physics.observer import observe
-from ..plan import plan as make_plan
-from ..render import labels
-from ..render.polarized_disk import Stokes, directions_at, stokes, why_not
+from ..planning import plan as make_plan
+from ..rendering import labels
+from ..rendering.polarized_disk import Stokes, directions_at, stokes, why_not
 from ..scene import Scene, SceneError
 from ..shapes import Float
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .. import listed_rays, plan
-from ..plan import choice
-from ..render.frame import Renderer
+from .. import listed_rays, planning
+from ..planning import choice
+from ..rendering.frame import Renderer
 from ..scene import Scene
 from . import refined, timing
 from .errors import compare
@@ -31,11 +31,11 @@ def measured(renderer: Renderer, scene: Scene, rays: int = 2000) -> Actual:
         ValueError: the scene's gravity is artistic: there is no truth to compare with.
     """
     _refuse_art(scene)
-    stated = plan.plan(scene).scene
+    stated = planning.plan(scene).scene
     place = ChartScene("measured", scene, rays)
     found = listed_rays.trace_by_shader(renderer, stated, place.rays)
     errors = compare(found, place.truth, place.epsilon >= NEAR_CRITICAL)
-    work = {"plan": plan.plan(stated), "flat": plan.plan(timing.flat_scene(stated))}
+    work = {"plan": planning.plan(stated), "flat": planning.plan(timing.flat_scene(stated))}
     cost = timing.interleaved(renderer, work, _SIZE, "flat", _ROUNDS)["plan"].ratio
     return Actual(choice.error_px(scene, errors.direction_99, errors.crossing_r_99), cost)
 
@@ -47,10 +47,10 @@ def measured_refined(renderer: Renderer, scene: Scene, pixels: int = 2000) -> ch
         ValueError: as `measured`.
     """
     _refuse_art(scene)
-    stated = plan.plan(scene).scene
+    stated = planning.plan(scene).scene
     errors = refined.errors(renderer, ChartScene("measured", scene, pixels), stated)
     made = refined.refined_plan(stated)
-    work = {"flat": plan.plan(timing.flat_scene(stated)), "refined": made, "every pixel": made}
+    work = {"flat": planning.plan(timing.flat_scene(stated)), "refined": made, "every pixel": made}
     cost = timing.interleaved(renderer, work, choice.REFINED_SIZE, "flat", _ROUNDS, refined=("refined",))
     error_px = choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1])
     return choice.Refinement(error_px, cost["refined"].ratio, cost["every pixel"].ratio)

@@ -9,12 +9,12 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from .. import plan
+from .. import planning
 from ..listed_rays import TracedRays, unknown
 from ..physics import relativity
-from ..plan import REFINE_STEP, Plan
-from ..plan.choice import REFINED_SIZE
-from ..render.frame import Renderer
+from ..planning import REFINE_STEP, Plan
+from ..planning.choice import REFINED_SIZE
+from ..rendering.frame import Renderer
 from ..scene import Scene
 from . import timing
 from .errors import Errors, compare
@@ -29,7 +29,7 @@ _UNSEEN = 1e5
 
 def refined_plan(scene: Scene, keep_crossings: bool = False) -> Plan:
     """The plan for `scene`, refined whether or not it would be."""
-    return replace(plan.plan(scene, keep_crossings=keep_crossings), refine_px=plan.refine_px(scene))
+    return replace(planning.plan(scene, keep_crossings=keep_crossings), refine_px=planning.refine_px(scene))
 
 
 def trace(renderer: Renderer, chart_scene: ChartScene, scene: Scene) -> TracedRays:
@@ -77,7 +77,7 @@ def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing,
 
     As everywhere in the chart the shortest times count.
     """
-    flat, made = plan.plan(timing.flat_scene(scene)), refined_plan(scene)
+    flat, made = planning.plan(timing.flat_scene(scene)), refined_plan(scene)
     taken, yard = [], []
     for _ in range(rounds):
         yard.append(min(renderer.time_trace(flat, REFINED_SIZE) for _ in range(2)))
@@ -89,12 +89,12 @@ def costs(renderer: Renderer, scene: Scene, rounds: int) -> tuple[timing.Timing,
 
 def disk_edge(scene: Scene) -> float:
     """What errors of crossing radii are relative to, in r_s: interpolation errs by a length on the disk, as a pixel sees it, and not by a share of r."""
-    return plan.plan(scene).disk_outer
+    return planning.plan(scene).disk_outer
 
 
 def _within(r: np.ndarray, scene: Scene) -> np.ndarray:
     """Crossing radii (…) in r_s, NaN where there is none on the disk."""
-    made = plan.plan(scene)
+    made = planning.plan(scene)
     return np.where((r >= made.disk_inner) & (r <= made.disk_outer), r, np.nan)
 
 

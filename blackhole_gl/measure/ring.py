@@ -17,10 +17,10 @@ from functools import lru_cache
 import numpy as np
 
 from ..physics.angular_size import m_uas, picture_height_m
-from ..plan import plan as make_plan
-from ..render.beam import sigma_px
-from ..render.frame import Renderer
-from ..render.polarized_disk import why_not
+from ..planning import plan as make_plan
+from ..rendering.beam import sigma_px
+from ..rendering.frame import Renderer
+from ..rendering.polarized_disk import why_not
 from ..scene import Scene, SceneError
 from ..shapes import Float
 from . import polarization_maps

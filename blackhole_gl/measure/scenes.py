@@ -12,7 +12,7 @@ from .. import listed_rays
 from ..listed_rays import TracedRays
 from ..physics import observer, relativity
 from ..physics.space_time import is_field, ray_model
-from ..plan.choice import REFINED_SIZE
+from ..planning.choice import REFINED_SIZE
 from ..scene import Scene, met, presets
 
 ASPECT = REFINED_SIZE[0] / REFINED_SIZE[1]

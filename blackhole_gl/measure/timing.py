@@ -9,9 +9,9 @@ import statistics
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 
-from .. import plan
-from ..plan import Plan
-from ..render.frame import Renderer
+from .. import planning
+from ..planning import Plan
+from ..rendering.frame import Renderer
 from ..scene import Scene
 
 
@@ -41,7 +41,7 @@ def euler_plan(scene: Scene) -> Plan:
     Every ray that is not captured takes all 300: the step is so short that none gets out of the march's bound before.
     """
     values = {"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.max_steps": 300, "hole.spin": 0.0}
-    slow = plan.plan(scene.with_values(values))
+    slow = planning.plan(scene.with_values(values))
     return replace(slow, step_length=slow.march_bound / 300.0)
 
 

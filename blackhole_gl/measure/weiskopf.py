@@ -13,8 +13,8 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from ..plan import Plan, plan
-from ..render.frame import Renderer
+from ..planning import Plan, plan
+from ..rendering.frame import Renderer
 from ..scene import Scene
 
 SIZE = (800, 600)

@@ -1,5 +1,5 @@
 // What of a pixel's ray is alike on all sides where nothing ends, in two numbers of eight bits: EDGE_… (glsl/declared.py), and what is met. The host looks for
-// where they change (blackhole_gl/render/edge_pixels.py). A ring may be thinner than a pixel and met by no pixel's middle; but it lies beside the line across which
+// where they change (blackhole_gl/rendering/edge_pixels.py). A ring may be thinner than a pixel and met by no pixel's middle; but it lies beside the line across which
 // the fate changes, or the order. The second ring is thin everywhere: there every pixel differs from the next.
 
 uniform bool disk_hides; // whether the direct picture hides the first ring's edges well enough

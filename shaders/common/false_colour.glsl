@@ -1,4 +1,4 @@
-// What all views share: values as colours, in linear light. Ranges, colours and legend come from blackhole_gl/render/views.py.
+// What all views share: values as colours, in linear light. Ranges, colours and legend come from blackhole_gl/rendering/views.py.
 
 uniform sampler2D colour_scale;  // one row, from the low end to the high one
 uniform vec3 view_range;         // values at the ends (their logarithms on a logarithmic scale); 1 where it is one

@@ -1,4 +1,4 @@
-// Bounding volume hierarchies (blackhole_gl/render/hierarchy.py), walked without a stack: a box that is met leads to the next node, one that is missed beyond all
+// Bounding volume hierarchies (blackhole_gl/rendering/hierarchy.py), walked without a stack: a box that is met leads to the next node, one that is missed beyond all
 // that lies in it. Boxes are whole numbers of cells of a cubic lattice, so that a node is one texel (docs/llvmpipe.md): in x, y, z the low sides, and 65536 times
 // the high ones; in w where the walk goes on beyond an inner node, or for a leaf −1 − 2·(what it holds) − (1 if that is the last). 0 ends a walk: there lies
 // the lattice, its corner and the width of a cell.

@@ -1,4 +1,4 @@
-// How hits lie in texels: the one place that knows. On the host, blackhole_gl/render/hit_texels.py.
+// How hits lie in texels: the one place that knows. On the host, blackhole_gl/rendering/hit_texels.py.
 //
 //   hits0   direction, 4·steps + fate
 //   hits1   crossing 0, λ, inbound (for the view of conserved quantities the drift)  with ORDERS > 0

@@ -13,7 +13,7 @@ struct RayStart {
 };
 
 // Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. RAYS_IN_BLOCKS: what is drawn are not pixels side by side but blocks of
-// rays, each of one pixel (blackhole_gl/render/edges.py).
+// rays, each of one pixel (blackhole_gl/rendering/edges.py).
 #if RAYS_IN_BLOCKS
 uniform sampler2D block_pixels;  // each block's pixel
 uniform float block_side;        // rays along each axis of a pixel

@@ -19,7 +19,7 @@ Hits shown_orders(Hits hits) {
 }
 
 #if DISK_ORDERS_SHOWN_TINTED
-// Colours of the view of orders (blackhole_gl/render/views.py) as linear light of luminance 1.
+// Colours of the view of orders (blackhole_gl/rendering/views.py) as linear light of luminance 1.
 vec3 order_tint(Hits hits, vec2 point) {
     return point == hits.crossing[0] ? vec3(2.93, 0.52, 0.05) : point == hits.crossing[1] ? vec3(0.05, 1.33, 0.57) : vec3(0.53, 0.68, 5.61);
 }

@@ -1,5 +1,5 @@
 // What transfer.frag leaves: of each stretch of a ray between crossings of the disk's plane, what the media there add and let through. On the host,
-// blackhole_gl/render/transfer.py.
+// blackhole_gl/rendering/transfer.py.
 
 uniform sampler2D gathered0, passed0;
 #if ORDERS > 0

@@ -1,4 +1,4 @@
-// Where light stands in the tone table: its leading bits say it. TONE_COLUMN_BITS and TONE_ROWS are the table's size (render/post.py).
+// Where light stands in the tone table: its leading bits say it. TONE_COLUMN_BITS and TONE_ROWS are the table's size (rendering/post.py).
 
 const int TONE_FIRST_EXPONENT = -30; // row 0, which stands for all that is darker too; 48 rows lead to 2^17, and radiance is at most 6e4
 

@@ -57,25 +57,25 @@ default = true
 help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
 
 [tables.catalogue_cells]
-make = "blackhole_gl.render.star_index:cells"
-constants = "blackhole_gl.render.star_index:CONSTANTS"
+make = "blackhole_gl.rendering.star_index:cells"
+constants = "blackhole_gl.rendering.star_index:CONSTANTS"
 
 [tables.catalogue_entries]
-make = "blackhole_gl.render.star_index:entries"
+make = "blackhole_gl.rendering.star_index:entries"
 
 [tables.catalogue_haze]
-make = "blackhole_gl.render.star_index:haze"
+make = "blackhole_gl.rendering.star_index:haze"
 filter = "mipmap"
 
 [tables.constellation_cells]
-make = "blackhole_gl.render.constellations:cells"
-constants = "blackhole_gl.render.constellations:CONSTANTS"
+make = "blackhole_gl.rendering.constellations:cells"
+constants = "blackhole_gl.rendering.constellations:CONSTANTS"
 
 [tables.constellation_lines]
-make = "blackhole_gl.render.constellations:lines"
+make = "blackhole_gl.rendering.constellations:lines"
 
 [numbers.catalogue_attitude]
-make = "blackhole_gl.render.sky_attitude:attitude"
+make = "blackhole_gl.rendering.sky_attitude:attitude"
 of = ["sky.catalogue.yaw_deg", "sky.catalogue.pitch_deg", "sky.catalogue.roll_deg"]
 type = "vec4"
 ---*/
@@ -85,7 +85,7 @@ type = "vec4"
 
 // One look-up tells where a pixel's cell has its list of stars, in the grid for footprints of its size; all stars whose kernels reach the pixel are in it. As
 // the footprint grows towards the next grid's, the stars which that one does not list fade into a haze, whose levels are made for this
-// (blackhole_gl/render/star_index.py): no light is lost or counted twice.
+// (blackhole_gl/rendering/star_index.py): no light is lost or counted twice.
 
 uniform sampler2D catalogue_cells;   // these two are nearest: docs/llvmpipe.md, texels
 uniform sampler2D catalogue_entries;
@@ -170,7 +170,7 @@ vec4 galaxy_and_haze(SkyPlace at, float level) {
 }
 
 #if SKY_CATALOGUE_CONSTELLATIONS
-uniform sampler2D constellation_cells, constellation_lines; // blackhole_gl/render/constellations.py
+uniform sampler2D constellation_cells, constellation_lines; // blackhole_gl/rendering/constellations.py
 
 const vec3 CONSTELLATION_COLOUR = vec3(0.03, 0.05, 0.09);
 const float CONSTELLATION_REACH = 0.012; // rad beside a line, in which it is listed: wider pixels show none

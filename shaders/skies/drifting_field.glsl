@@ -35,17 +35,17 @@ unit = "×"
 help = "How fast it drifts through the noise besides: as many times (0.005, 0.003, 0) a time of r_s/c."
 
 [numbers.drifting_field_turn]
-make = "blackhole_gl.render.drifting_field:turn"
+make = "blackhole_gl.rendering.drifting_field:turn"
 of = ["time", "sky.drifting_field.turn_rate"]
 type = "vec2"
 
 [numbers.drifting_field_cell]
-make = "blackhole_gl.render.drifting_field:cell"
+make = "blackhole_gl.rendering.drifting_field:cell"
 of = ["time", "sky.drifting_field.drift", "sky.drifting_field.scale"]
 type = "vec4"
 
 [numbers.drifting_field_shift]
-make = "blackhole_gl.render.drifting_field:shift"
+make = "blackhole_gl.rendering.drifting_field:shift"
 of = ["time", "sky.drifting_field.drift", "sky.drifting_field.scale"]
 type = "vec4"
 ---*/

@@ -39,7 +39,7 @@ default = true
 help = "Shift its brightness (as the fourth power) by the observer's place and motion, and its colours as those of light from 6500 K."
 
 [numbers.image_attitude]
-make = "blackhole_gl.render.sky_attitude:attitude"
+make = "blackhole_gl.rendering.sky_attitude:attitude"
 of = ["sky.image.yaw_deg", "sky.image.pitch_deg", "sky.image.roll_deg"]
 type = "vec4"
 ---*/
@@ -47,7 +47,7 @@ type = "vec4"
 #include "common/rotation.glsl"
 #include "common/sky_cube.glsl"
 
-uniform sampler2D sky_image_file; // blackhole_gl/render/panorama_files.py: six tiles of the cube
+uniform sampler2D sky_image_file; // blackhole_gl/rendering/panorama_files.py: six tiles of the cube
 
 const float IMAGE_TAPS = 8.0;    // a footprint longer than so many times its width is widened
 const float IMAGE_LEVELS = 6.0;  // the coarsest

@@ -55,12 +55,12 @@ range = [0.0, 1.0]
 help = "Blue light around it."
 
 [numbers.sky_picture_axes]
-make = "blackhole_gl.render.hung_picture:axes"
+make = "blackhole_gl.rendering.hung_picture:axes"
 of = ["sky.picture.hung", "sky.picture.azimuth_deg", "sky.picture.latitude_deg", "camera.azimuth_deg", "camera.inclination_deg"]
 type = "mat4"
 
 [numbers.sky_picture_half_width]
-make = "blackhole_gl.render.hung_picture:half_width"
+make = "blackhole_gl.rendering.hung_picture:half_width"
 of = ["sky.picture.width_deg"]
 ---*/
 #include "common/pictures.glsl"

@@ -29,12 +29,12 @@ default = true
 help = "Shift the sky's colour and brightness (as the fourth power) by the observer's place and motion."
 
 [tables.galaxy_band]
-make = "blackhole_gl.render.galaxy_band:table"
+make = "blackhole_gl.rendering.galaxy_band:table"
 filter = "mipmap"
 repeat_x = true
 
 [tables.star_cells]
-make = "blackhole_gl.render.star_cells:table"
+make = "blackhole_gl.rendering.star_cells:table"
 ---*/
 #include "common/rotation.glsl"
 #include "common/sky_cube.glsl"
@@ -45,7 +45,7 @@ make = "blackhole_gl.render.star_cells:table"
 // star of the pixel's own cell can be seen in it: one look-up a grid, no neighbours, no seams at the cube's edges. Where the
 // footprint grows beyond that, the grid fades into its own mean radiance.
 
-uniform sampler2D star_cells;  // blackhole_gl/render/star_cells.py; nearest: docs/llvmpipe.md, texels
+uniform sampler2D star_cells;  // blackhole_gl/rendering/star_cells.py; nearest: docs/llvmpipe.md, texels
 uniform sampler2D galaxy_band; // assets/galaxy_band.npz: longitude × sin(latitude) in −0.5…0.5, square root of radiance
 
 const vec3 GALAXY_CENTRE = vec3(-0.947063, 0.290589, 0.136495);

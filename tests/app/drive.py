@@ -76,7 +76,7 @@ class EngineDriver:
 def real_renderer(folder: Path):
     """A maker of the renderer that draws with a copy of the shaders, ``folder/shaders``, which a scenario may edit."""
     from blackhole_gl import resources
-    from blackhole_gl.render import frame, programs
+    from blackhole_gl.rendering import frame, programs
 
     copy = shutil.copytree(resources.shaders_dir(), folder / "shaders")
     programs.shaders_dir = lambda: copy

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from blackhole_gl.glsl.declared import Fate
-from blackhole_gl.render import views
-from blackhole_gl.render.pixel_values import OnDisk, PixelValues
+from blackhole_gl.rendering import views
+from blackhole_gl.rendering.pixel_values import OnDisk, PixelValues
 
 
 @dataclass(frozen=True)

@@ -20,12 +20,12 @@ import numpy as np
 from hands import Frames, Hands, wait
 from PIL import Image
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.app import compass, mouse_values, overlay, preset_switch
 from blackhole_gl.app.live_chart import is_used, use
 from blackhole_gl.app.runner import PANEL
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render import labels, polarized_disk, scale_bar
+from blackhole_gl.rendering import labels, polarized_disk, scale_bar
 from blackhole_gl.scene import fields, presets
 
 Key = imgui.Key
@@ -651,7 +651,7 @@ def live_chart(hands: Hands) -> None:
     assert best.method.model == "kerr" and best.pixels < 5.0 < worst.pixels
     use(best, hands.state)
     hands.context.yield_(2)
-    assert [is_used(point, hands.scene, plan.plan(hands.scene)) for point in (best, worst)] == [True, False]
+    assert [is_used(point, hands.scene, planning.plan(hands.scene)) for point in (best, worst)] == [True, False]
     wait(hands, lambda: hands.window.picture.is_current, seconds=60.0)
     assert hands.window.picture.report.method.startswith(best.method.model)
     assert best in chart.points, "another method is no other view"

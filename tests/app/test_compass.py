@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.app import compass
-from blackhole_gl.render.drawing_matrices import Axes
+from blackhole_gl.rendering.drawing_matrices import Axes
 from blackhole_gl.scene import Scene
 
 MIDDLE = (0.5, 0.5)

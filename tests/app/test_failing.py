@@ -84,7 +84,7 @@ def test_check_opens_a_window_and_tells_when_it_cannot(tmp_path: Path, desktop: 
 
 def test_a_way_to_draw_that_is_not_needed_does_not_fail_the_check(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> None:
     from blackhole_gl import self_check
-    from blackhole_gl.render import context
+    from blackhole_gl.rendering import context
 
     def only_egl(backend: str):
         if backend == "osmesa":

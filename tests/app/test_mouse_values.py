@@ -6,7 +6,7 @@ import pytest
 
 from blackhole_gl.app.mouse_values import lines
 from blackhole_gl.glsl.declared import Fate
-from blackhole_gl.render.pixel_values import OnDisk, PixelValues
+from blackhole_gl.rendering.pixel_values import OnDisk, PixelValues
 
 DISK = OnDisk(1, 3.25, -0.5, 0.81234, 4100.4)
 

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.picture import Picture
 from blackhole_gl.app.preparation import Preparation
-from blackhole_gl.render.programs import Unready
-from blackhole_gl.render.supersampling import MOST_SAMPLES
+from blackhole_gl.rendering.programs import Unready
+from blackhole_gl.rendering.supersampling import MOST_SAMPLES
 from blackhole_gl.scene import Scene
 from tests.app.fake_renderer import FakeRenderer
 
@@ -72,7 +72,7 @@ class Renderer(FakeRenderer):
         self.compiled = set()
 
     def render(self, scene, time, size, target=None, **how):
-        program = plan.plan(scene).scene.rays.integrator, scene.disk.enabled
+        program = planning.plan(scene).scene.rays.integrator, scene.disk.enabled
         if program not in self.compiled:
             if self.programs.deadline < clock.perf_counter():
                 raise Unready
@@ -82,14 +82,14 @@ class Renderer(FakeRenderer):
     @property
     def integrators(self):
         """Of the pictures drawn so far."""
-        return [plan.plan(scene).scene.rays.integrator for scene, *_ in self.calls]
+        return [planning.plan(scene).scene.rays.integrator for scene, *_ in self.calls]
 
 
 class Moving:
     """A picture under a camera that a test tilts; the plan takes another integrator above 30° and above 60°."""
 
     def __init__(self, ctx, monkeypatch):
-        monkeypatch.setattr(plan, "plan", lambda scene: SimpleNamespace(scene=self._resolved(scene)))
+        monkeypatch.setattr(planning, "plan", lambda scene: SimpleNamespace(scene=self._resolved(scene)))
         self.work, self._time = [], 0.0
         self.renderer = Renderer(ctx)
         self.picture = Picture(ctx, self.renderer, Preparation(self._submit))
@@ -104,7 +104,7 @@ class Moving:
         return scene.with_values({"rays.model": "kerr", "rays.integrator": integrator})
 
     def _submit(self, scene, size):
-        self.work.append((plan.plan(scene).scene.rays.integrator, Future()))
+        self.work.append((planning.plan(scene).scene.rays.integrator, Future()))
         return self.work[-1][1]
 
     def draw(self, **values):

@@ -5,7 +5,7 @@ import pytest
 
 from blackhole_gl.app import preset_switch, scene_files
 from blackhole_gl.app.state import WindowState
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 SIZE = (96, 54)

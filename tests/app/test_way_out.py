@@ -7,7 +7,7 @@ import pytest
 
 from blackhole_gl.app.camera_control import range_by_hand
 from blackhole_gl.app.way_out import is_black, out_of_sight
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 SIZE = (320, 180)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 GOLDEN = Path(__file__).resolve().parent / "golden"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.resources import assets_dir
 from tools import make_thumbnails
 

@@ -10,8 +10,8 @@ from pathlib import Path
 RENDER_ONE_FRAME = """
 import json, sys
 from blackhole_gl.scene import presets
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 
 renderer = Renderer(create_headless("egl"))
 renderer.render(presets.load(["schwarzschild"], {}), time=0.0, size=(32, 18))
@@ -30,7 +30,7 @@ def test_headless_frame_loads_no_window_library(tmp_path: Path) -> None:
 
 
 # Each takes a hundredth of the time of a first picture, or more.
-DEAR = {"pydantic", "typer", "click", "rich", "scipy", "pyrr", "trimesh", "importlib.metadata", "difflib", "blackhole_gl.render.labels"}
+DEAR = {"pydantic", "typer", "click", "rich", "scipy", "pyrr", "trimesh", "importlib.metadata", "difflib", "blackhole_gl.rendering.labels"}
 
 
 def test_a_command_loads_nothing_dear_that_its_picture_does_not_need(tmp_path: Path) -> None:

@@ -17,8 +17,8 @@ LAYERS = (
     {"output"},
     {"scene"},
     {"physics"},
-    {"plan", "glsl"},
-    {"render"},
+    {"planning", "glsl"},
+    {"rendering"},
     {"listed_rays"},
     {"measure"},
     {"app"},
@@ -42,7 +42,7 @@ INDEPENDENT = {
 # Third-party packages that only some modules may import: everything else must work without them.
 CONFINED = {
     "imgui_bundle": ("app",),
-    "glfw": ("app", "render/context.py"),
+    "glfw": ("app", "rendering/context.py"),
     "jaxtyping": ("shapes.py",),
     "matplotlib": (),
     "platformdirs": ("resources.py",),
@@ -93,7 +93,7 @@ def test_imports_run_one_way(path: Path) -> None:
         if own in INDEPENDENT:
             assert name in INDEPENDENT[own], f"{where}: {own} is to be independent, and imports {name}"
         elif part in INDEPENDENT:
-            assert RANK[own] > RANK["plan"], f"{where}: {own} imports the reference it is checked against"
+            assert RANK[own] > RANK["planning"], f"{where}: {own} imports the reference it is checked against"
         else:
             assert RANK.get(part, len(LAYERS)) < RANK[own], f"{where}: {own} imports {part}, which does not stand below it"
 

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from blackhole_gl.physics import angular_size
-from blackhole_gl.plan import plan
-from blackhole_gl.render import uniforms
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import uniforms
 from blackhole_gl.scene import Camera, Scene, Source
 
 M87 = Source(real=True, mass_suns=6.5e9, distance_pc=16.8e6)

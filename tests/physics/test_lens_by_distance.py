@@ -8,7 +8,7 @@ import pytest
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import angles_between
 from blackhole_gl.measure.scenes import ChartScene, true_scene
-from blackhole_gl.plan import thin_lens
+from blackhole_gl.planning import thin_lens
 from blackhole_gl.scene import Scene
 from studies import lens_by_distance
 

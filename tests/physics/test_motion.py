@@ -10,7 +10,7 @@ import pytest
 from blackhole_gl.physics import motion, relativity
 from blackhole_gl.physics.moving_matter import own_time_squared
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.plan import plan
+from blackhole_gl.planning import plan
 from blackhole_gl.scene import Scene, catalogue, met, presets
 
 

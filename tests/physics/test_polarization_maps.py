@@ -11,9 +11,9 @@ from blackhole_gl import cli
 from blackhole_gl.measure import polarization_maps
 from blackhole_gl.measure.polarization_maps import PolarizationMaps
 from blackhole_gl.physics.observer import local_directions, observe
-from blackhole_gl.plan import plan
-from blackhole_gl.render import labels
-from blackhole_gl.render.polarized_disk import Stokes, stokes
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import labels
+from blackhole_gl.rendering.polarized_disk import Stokes, stokes
 from blackhole_gl.scene import Scene, SceneError
 
 

@@ -10,9 +10,9 @@ from scipy import ndimage
 
 from blackhole_gl.measure import polarization_maps, ring
 from blackhole_gl.physics.observer import local_directions, observe, parallel_rays
-from blackhole_gl.plan import plan
-from blackhole_gl.render import beam, labels, polarized_disk
-from blackhole_gl.render.annotation import annotated
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import beam, labels, polarized_disk
+from blackhole_gl.rendering.annotation import annotated
 from blackhole_gl.scene import Scene
 
 FACE_ON = {"camera.inclination_deg": 0.0, "camera.distance": math.inf, "camera.field_m": 36.0, "polarization.field_vertical": 0.0}

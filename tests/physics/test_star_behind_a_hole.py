@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from blackhole_gl.measure.flux import pixel_angles
-from blackhole_gl.render import star_index
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.star_catalogue import Stars
+from blackhole_gl.rendering import star_index
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.star_catalogue import Stars
 from blackhole_gl.scene import presets
 
 DISTANCE = 1000.0  # r_s

@@ -6,14 +6,14 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from blackhole_gl.plan import Plan, plan
-from blackhole_gl.render.diagnostics import most_accurate, prepared
-from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.post import TONE_TABLE
-from blackhole_gl.render.programs import Programs
-from blackhole_gl.render.reach import ALONE, FINER
-from blackhole_gl.render.refinement import FILLED
-from blackhole_gl.render.uniforms import stars_a_pixel
+from blackhole_gl.planning import Plan, plan
+from blackhole_gl.rendering.diagnostics import most_accurate, prepared
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.post import TONE_TABLE
+from blackhole_gl.rendering.programs import Programs
+from blackhole_gl.rendering.reach import ALONE, FINER
+from blackhole_gl.rendering.refinement import FILLED
+from blackhole_gl.rendering.uniforms import stars_a_pixel
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
 

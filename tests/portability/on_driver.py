@@ -16,8 +16,8 @@ from PIL import Image
 
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.scenes import ChartScene, is_charted
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import presets
 from tests.images.test_golden_pictures import SHOTS, SIZE

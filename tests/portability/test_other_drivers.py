@@ -18,7 +18,7 @@ from PIL import Image
 from blackhole_gl import listed_rays
 from blackhole_gl.measure.errors import compare
 from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene
-from blackhole_gl.plan import choice
+from blackhole_gl.planning import choice
 from tests.images.test_golden_pictures import GOLDEN, MEAN, MOST, SHARE, SHOTS
 from tests.portability.on_driver import places
 

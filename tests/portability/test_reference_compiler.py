@@ -15,7 +15,7 @@ import pytest
 
 from blackhole_gl.glsl.carried import MOST_INPUTS
 from blackhole_gl.glsl.live import live_words
-from blackhole_gl.render import uniforms
+from blackhole_gl.rendering import uniforms
 from blackhole_gl.resources import shaders_dir
 from tests.portability.every_program import collect, collect_methods
 

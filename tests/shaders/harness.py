@@ -15,7 +15,7 @@ import numpy as np
 
 from blackhole_gl.glsl.compose import compose
 from blackhole_gl.glsl.declared import defines
-from blackhole_gl.render import mip_levels, star_cells, star_index
+from blackhole_gl.rendering import mip_levels, star_cells, star_index
 from blackhole_gl.resources import assets_dir, shaders_dir
 
 VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }"

@@ -17,8 +17,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 import moderngl  # noqa: E402
 
-from blackhole_gl.render.context import create_headless  # noqa: E402
-from blackhole_gl.render.frame import Renderer  # noqa: E402
+from blackhole_gl.rendering.context import create_headless  # noqa: E402
+from blackhole_gl.rendering.frame import Renderer  # noqa: E402
 from blackhole_gl.scene import presets  # noqa: E402
 
 SIZES = ((48, 32), (40, 40), (64, 36), (33, 21))

@@ -8,7 +8,7 @@ import numpy as np
 
 from blackhole_gl.physics import observer, relativity
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene
 
 # With 2048 rays the list's texture has two rows of 1024.

@@ -10,7 +10,7 @@ import pytest
 
 from blackhole_gl import cli
 from blackhole_gl.measure import weiskopf
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import SceneError
 
 SIZE = (64, 48)

@@ -11,14 +11,14 @@ import moderngl
 import numpy as np
 import pytest
 
-from blackhole_gl.render import context
+from blackhole_gl.rendering import context
 
 TRACE = """
 import sys
 import numpy as np
 from blackhole_gl.scene import presets
-from blackhole_gl.render.context import create_headless, describe
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless, describe
+from blackhole_gl.rendering.frame import Renderer
 
 ctx = create_headless()
 renderer = Renderer(ctx)
@@ -78,7 +78,7 @@ def frames_of_egl(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndar
 # GLFW refuses a way to make contexts that it does not know, as it does one whose library is not there.
 WITHOUT_OSMESA = """
 import glfw
-from blackhole_gl.render import context
+from blackhole_gl.rendering import context
 
 glfw.OSMESA_CONTEXT_API = 0x1234
 try:

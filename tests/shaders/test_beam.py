@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.physics.angular_size import picture_height_uas
-from blackhole_gl.render.beam import BeamPass, sigma_px
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.post import PostPass
+from blackhole_gl.rendering.beam import BeamPass, sigma_px
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.post import PostPass
 from blackhole_gl.scene import Scene
 
 SIZE = (208, 121)
@@ -54,7 +54,7 @@ def test_the_beam_is_a_gaussian_of_its_width(ctx, renderer, sigma: float) -> Non
     """A thousandth of the peak: what is said of the halved pictures (beam.py)."""
     light = ring_and_points()
     source, beam = texture_of(ctx, light), BeamPass(ctx, renderer.programs)
-    inputs = FrameInputs.whole(plan.plan(with_sigma(sigma, SIZE[1])), 0.0, SIZE)
+    inputs = FrameInputs.whole(planning.plan(with_sigma(sigma, SIZE[1])), 0.0, SIZE)
     found = np.frombuffer(beam.blurred(inputs, source).read(), np.float32).reshape(SIZE[1], SIZE[0], 4)[..., :3].astype(float)
     expected = ndimage.gaussian_filter(light, (sigma, sigma, 0.0), mode="nearest", truncate=8.0)
     for channel in range(3):
@@ -75,7 +75,7 @@ def test_width_follows_the_object_and_the_pictures_height() -> None:
 
 def test_a_plain_sky_stays_plain_to_the_edge(ctx, renderer) -> None:
     source, beam = texture_of(ctx, np.full((SIZE[1], SIZE[0], 3), 0.25)), BeamPass(ctx, renderer.programs)
-    inputs = FrameInputs.whole(plan.plan(with_sigma(21.0, SIZE[1])), 0.0, SIZE)
+    inputs = FrameInputs.whole(planning.plan(with_sigma(21.0, SIZE[1])), 0.0, SIZE)
     found = np.frombuffer(beam.blurred(inputs, source).read(), np.float32).astype(float).reshape(-1, 4)[:, :3]
     np.testing.assert_allclose(found, 0.25, rtol=1e-5)  # float32 sums
     beam.release()
@@ -88,7 +88,7 @@ def shown(ctx, renderer, radiance: np.ndarray, **post: object) -> np.ndarray:
     values = {"post.dither": False, "post.colours": "afmhot", **{f"post.{key}": value for key, value in post.items()}}
     source, target = texture_of(ctx, radiance), ctx.framebuffer([ctx.texture((width, height), 4, dtype="f4")])
     made = PostPass(ctx, renderer.programs)
-    made.draw(FrameInputs.whole(plan.plan(Scene().with_values(values)), 0.0, (width, height)), source, target, (0, 0, width, height))
+    made.draw(FrameInputs.whole(planning.plan(Scene().with_values(values)), 0.0, (width, height)), source, target, (0, 0, width, height))
     found = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3].copy()
     made.release()
     return found

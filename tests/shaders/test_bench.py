@@ -9,7 +9,7 @@ import pytest
 
 from blackhole_gl import cli
 from blackhole_gl.measure import bench
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 

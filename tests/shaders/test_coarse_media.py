@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan as make_plan
-from blackhole_gl.render import coarse_transfer
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.planning import plan as make_plan
+from blackhole_gl.rendering import coarse_transfer
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (96, 54)

@@ -11,18 +11,18 @@ import moderngl
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.glsl.compose import ShaderError
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitMap
-from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.programs import Programs
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_map import HitMap
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.programs import Programs
 from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import Scene, catalogue, fields, presets
 from tests.portability.every_program import pairs
 
 SCENE = presets.load(["kerr"])
-INPUTS = FrameInputs.whole(plan.plan(SCENE), 0.0, (16, 9))
+INPUTS = FrameInputs.whole(planning.plan(SCENE), 0.0, (16, 9))
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.reference import schemes
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 
 WITHIN = 0.3  # measured order against the declared one: the nearest whole number is in no doubt

@@ -9,9 +9,9 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.physics import observer
-from blackhole_gl.plan import choice
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
+from blackhole_gl.planning import choice
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, presets
 
 WIDTH, HEIGHT = 60, 34

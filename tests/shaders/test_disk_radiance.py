@@ -8,7 +8,7 @@ import pytest
 from blackhole_gl import reference
 from blackhole_gl.physics import relativity
 from blackhole_gl.physics.disk_profile import page_thorne_flux
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 SIZE = (128, 72)

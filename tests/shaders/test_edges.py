@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics.observer import look_rotation
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, met, presets
 
 FINER = 6

@@ -7,10 +7,10 @@ import itertools
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render import metering
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_map import HitMap
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import metering
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_map import HitMap
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (160, 90)

@@ -24,8 +24,8 @@ import os, sys
 from pathlib import Path
 import numpy as np
 from blackhole_gl.scene import catalogue, presets
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 
 assert not catalogue.mistakes(), catalogue.mistakes()
 renderer = Renderer(create_headless())

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 CAMERAS = {

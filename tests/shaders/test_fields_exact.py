@@ -12,8 +12,8 @@ from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import observer
 from blackhole_gl.reference import dynamical_fields, potential, refraction
 from blackhole_gl.reference.field_form import FieldTraced, through_field
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import RayPath, Recorder
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import RayPath, Recorder
 from blackhole_gl.scene import Scene, catalogue
 from tests.shaders.test_fields import FIELDS, RADIUS, VARIANTS, WITHIN, rays_of, scene_of
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 from studies import flight, pictures
 from studies.flight import FlightFrame

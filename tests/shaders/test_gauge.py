@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.measure import timing
 from blackhole_gl.measure.gauge import Gauged, gauging
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 
@@ -47,10 +47,10 @@ def test_a_camera_at_infinity_has_no_error_in_pixels(renderer: Renderer) -> None
 
 def test_a_yardstick_that_is_held_up_once_makes_nothing_cheap(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every other flat frame takes a hundred times as long."""
-    flat = plan.plan(timing.flat_scene(scene_of()))
+    flat = planning.plan(timing.flat_scene(scene_of()))
     calls = []
 
-    def time_trace(made: plan.Plan, size: tuple[int, int]) -> float:
+    def time_trace(made: planning.Plan, size: tuple[int, int]) -> float:
         calls.append(made)
         return 3.0 if made is not flat else 100.0 if calls.count(flat) % 3 else 1.0
 

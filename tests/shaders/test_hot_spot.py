@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import hot_spot, relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 TEN_HOURS = 36_000.0 * 4.0  # of playback at the default 4 r_s/c a second

@@ -13,8 +13,8 @@ import pytest
 from blackhole_gl.physics.moving_matter import emitted_shift
 from blackhole_gl.physics.observer import observe
 from blackhole_gl.reference import jet, transfer
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, catalogue, presets
 from tests.shaders.harness import Piece
 

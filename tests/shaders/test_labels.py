@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 
 from blackhole_gl.glsl.declared import Fate
-from blackhole_gl.render import labels
-from blackhole_gl.render.annotation import annotated
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.sheet import pieces
-from blackhole_gl.render.views import view_of
+from blackhole_gl.rendering import labels
+from blackhole_gl.rendering.annotation import annotated
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.sheet import pieces
+from blackhole_gl.rendering.views import view_of
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (240, 150)

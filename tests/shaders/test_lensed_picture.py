@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene
 
 SIZE = (160, 90)

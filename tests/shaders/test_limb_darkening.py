@@ -7,8 +7,8 @@ import pytest
 
 from blackhole_gl.physics import lensed_circles, polarization, relativity
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import presets
 
 SIZE = (96, 54)

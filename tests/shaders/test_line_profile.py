@@ -11,7 +11,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from blackhole_gl.measure import line_profile
 from blackhole_gl.physics import lensed_circles, observer, relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
 
 BINS = 100

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import observer
-from blackhole_gl.plan import choice
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.planning import choice
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, SceneError, presets
 from studies.displacement import beside_an_edge, displacement_px
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics.shear import RENEWAL_PERIOD
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, catalogue, presets
 from tests.shaders.harness import Piece
 

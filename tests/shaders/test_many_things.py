@@ -7,7 +7,7 @@ from types import FrameType
 
 import numpy as np
 
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (32, 18)

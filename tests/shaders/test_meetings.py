@@ -15,8 +15,8 @@ from blackhole_gl import listed_rays, reference
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import observer
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.plan import WORLD, plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import WORLD, plan
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -189,8 +189,8 @@ Matter medium_fog_matter(int i, Sight sight) {
 DRAW_FOG = """
 import math
 import numpy as np
-from blackhole_gl.render.context import create_headless
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.context import create_headless
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 renderer = Renderer(create_headless())

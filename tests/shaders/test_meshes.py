@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from blackhole_gl.glsl.declared import Fate
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
 
 SIZE = (160, 90)

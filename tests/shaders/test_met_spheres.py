@@ -9,7 +9,7 @@ from blackhole_gl import listed_rays, reference
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import observer
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 MODELS = ("flat", "schwarzschild", "kerr", "lorenz")

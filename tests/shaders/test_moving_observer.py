@@ -10,11 +10,11 @@ import pytest
 from blackhole_gl import listed_rays
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import observer
-from blackhole_gl.plan import choice
+from blackhole_gl.planning import choice
 from blackhole_gl.reference.observers import at_rest
-from blackhole_gl.render import labels
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
+from blackhole_gl.rendering import labels
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, presets
 from studies.displacement import beside_an_edge, displacement_px
 from tests.shaders.test_labels import in_pixels, most_off

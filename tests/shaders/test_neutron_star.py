@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import observer
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 STAR = {"kind": "sphere", "x": 0.0, "y": 0.0, "z": 0.0}

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render import metering
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.tables import Tables
-from blackhole_gl.render.temperatures import TemperatureProfile
-from blackhole_gl.render.views import linear_light, view_of
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import metering
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.tables import Tables
+from blackhole_gl.rendering.temperatures import TemperatureProfile
+from blackhole_gl.rendering.views import linear_light, view_of
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (160, 100)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from blackhole_gl.render import instance_numbers
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering import instance_numbers
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (96, 64)

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render import instances
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.pictures import ARRAY, Pictures
-from blackhole_gl.render.pictures import layers as layers_of
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import instances
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.pictures import ARRAY, Pictures
+from blackhole_gl.rendering.pictures import layers as layers_of
 from blackhole_gl.scene import FrozenMap, Scene, SceneError
 from tests.unit.kinds import known_kinds  # noqa: F401
 
@@ -72,7 +72,7 @@ def test_the_array_is_made_anew_when_a_file_or_the_choice_changes_and_only_then(
 
 @pytest.mark.usefixtures("known_kinds")
 def test_many_pictures_share_the_room(pictures: Pictures, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("blackhole_gl.render.pictures.MOST_ARRAY_BYTES", 3 * 4 * 4 * 8)
+    monkeypatch.setattr("blackhole_gl.rendering.pictures.MOST_ARRAY_BYTES", 3 * 4 * 4 * 8)
     texture = pictures.of_instances(spheres(*(put(tmp_path / f"{k}.png", RED, (8, 8)) for k in range(3))))[ARRAY]
     assert texture.size == (4, 4, 3)
 

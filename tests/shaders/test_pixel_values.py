@@ -11,10 +11,10 @@ from blackhole_gl import reference
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import disk_profile
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
-from blackhole_gl.render.views import linear_light
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
+from blackhole_gl.rendering.views import linear_light
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (96, 60)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import pytest
 
-from blackhole_gl import listed_rays, plan
+from blackhole_gl import listed_rays, planning
 from blackhole_gl.measure import refined
 from blackhole_gl.measure.errors import compare
 from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene, is_charted
-from blackhole_gl.plan import choice
+from blackhole_gl.planning import choice
 from blackhole_gl.scene import presets
 
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and is_charted(presets.load([info.name]))]
@@ -26,7 +26,7 @@ def place(request) -> ChartScene:
 
 def test_the_measured_error_is_within_the_tolerance(renderer, place):
     scene = place.scene
-    errors = compare(listed_rays.trace_by_shader(renderer, plan.plan(scene).scene, place.rays), place.truth, place.epsilon >= NEAR_CRITICAL)
+    errors = compare(listed_rays.trace_by_shader(renderer, planning.plan(scene).scene, place.rays), place.truth, place.epsilon >= NEAR_CRITICAL)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
 
@@ -34,10 +34,10 @@ def test_the_measured_error_is_within_the_tolerance(renderer, place):
 def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, place):
     """In pixels of the picture that is interpolated."""
     scene = place.scene
-    made = plan.plan(scene)
+    made = planning.plan(scene)
     # a look-up is nearly as cheap as interpolation: which of the two is taken is the table's to say
     assert made.refine_px > 0.0 or made.integrator is None, "else a moving picture costs several times what it need"
-    errors = refined.errors(renderer, place, plan.plan(scene).scene)
+    errors = refined.errors(renderer, place, planning.plan(scene).scene)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1]) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
     assert errors.lost_crossings <= 0.01

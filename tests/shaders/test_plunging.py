@@ -9,8 +9,8 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.physics import plunging, relativity
-from blackhole_gl.plan import choice, plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import choice, plan
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 from tests.shaders.harness import Piece
 

@@ -6,11 +6,11 @@ import moderngl
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.post import GLOW_LASTS, PostPass, bloom_sizes
-from blackhole_gl.render.programs import Programs
+from blackhole_gl import planning
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.post import GLOW_LASTS, PostPass, bloom_sizes
+from blackhole_gl.rendering.programs import Programs
 from blackhole_gl.scene import Scene
 
 CURVES = ("linear", "reinhard", "aces", "agx")
@@ -35,7 +35,7 @@ def developed(ctx, renderer):
         source = ctx.texture((width, height), 4, data.tobytes(), dtype="f2")
         target = ctx.framebuffer([ctx.texture((width, height), 4, dtype="f4")])
         post = PostPass(ctx, renderer.programs)
-        post.draw(FrameInputs.whole(plan.plan(scene), 0.0, (width, height)), source, target, (0, 0, width, height))
+        post.draw(FrameInputs.whole(planning.plan(scene), 0.0, (width, height)), source, target, (0, 0, width, height))
         found = np.frombuffer(target.color_attachments[0].read(), np.float32).reshape(height, width, 4)[..., :3].copy()
         post.release()
         return found
@@ -114,7 +114,7 @@ def test_a_picture_larger_than_its_radiance_is_filtered(ctx, renderer) -> None:
     source = ctx.texture((8, 8), 4, data.tobytes(), dtype="f2")
     target = ctx.framebuffer([ctx.texture((16, 16), 4)])
     post = PostPass(ctx, renderer.programs)
-    post.draw(FrameInputs.whole(plan.plan(scene), 0.0, (8, 8)), source, target, (0, 0, 16, 16))
+    post.draw(FrameInputs.whole(planning.plan(scene), 0.0, (8, 8)), source, target, (0, 0, 16, 16))
     row = np.frombuffer(target.read(components=3), np.uint8).reshape(16, 16, 3)[8, :, 0]
     assert len(set(row.tolist())) == 4 and (np.diff(row.astype(int)) >= 0).all()
     for item in (post, source, target):
@@ -155,7 +155,7 @@ def glow(ctx, renderer, radiance: np.ndarray, **values) -> np.ndarray:
     source = ctx.texture((width, height), 4, data.tobytes(), dtype="f2")
     source.repeat_x = source.repeat_y = False
     post = PostPass(ctx, renderer.programs)
-    texture = post._bloom(FrameInputs.whole(plan.plan(scene), 0.0, source.size), source)
+    texture = post._bloom(FrameInputs.whole(planning.plan(scene), 0.0, source.size), source)
     found = np.frombuffer(texture.read(), np.float16).reshape(texture.height, texture.width, 4)[..., :3].astype(float)
     post.release()
     return found

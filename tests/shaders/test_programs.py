@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from blackhole_gl.render import frame, programs
+from blackhole_gl.rendering import frame, programs
 from blackhole_gl.scene import Scene
 
 SIZE = (16, 12)

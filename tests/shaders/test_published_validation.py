@@ -12,7 +12,7 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.physics import deflection, observer, relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from studies.validation import validate
 from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge

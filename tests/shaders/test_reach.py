@@ -8,13 +8,13 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render import edge_pixels, reach
-from blackhole_gl.render.edge_blocks import EdgeBlocks
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
-from blackhole_gl.render.inputs import FrameInputs
-from blackhole_gl.render.squares import Squares
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import edge_pixels, reach
+from blackhole_gl.rendering.edge_blocks import EdgeBlocks
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.squares import Squares
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
-from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
+from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)

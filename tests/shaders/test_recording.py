@@ -9,8 +9,8 @@ from blackhole_gl import reference
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import observer
 from blackhole_gl.physics.space_time import space_time
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import RayPath, Recorder, pixel_direction
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import RayPath, Recorder, pixel_direction
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 200)

@@ -11,7 +11,7 @@ from scipy import ndimage, optimize, special
 from blackhole_gl.measure import ring
 from blackhole_gl.physics import lensed_circles
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
 
 FWHM = math.sqrt(8.0 * math.log(2.0))

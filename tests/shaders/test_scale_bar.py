@@ -7,8 +7,8 @@ import pytest
 
 from blackhole_gl.output.streams import spelled
 from blackhole_gl.physics.angular_size import picture_height_uas
-from blackhole_gl.render import scale_bar
-from blackhole_gl.render.annotation import annotated
+from blackhole_gl.rendering import scale_bar
+from blackhole_gl.rendering.annotation import annotated
 from blackhole_gl.scene import Scene, presets
 
 FAR = {"camera.distance": math.inf, "camera.field_m": 32.0}

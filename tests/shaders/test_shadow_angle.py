@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import SCREEN_ANGLES, shadow_edge
 

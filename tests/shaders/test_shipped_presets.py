@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from blackhole_gl.measure.scenes import is_charted
-from blackhole_gl.plan import Plan, plan
-from blackhole_gl.render import diagnostics
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.inputs import FrameInputs
+from blackhole_gl.planning import Plan, plan
+from blackhole_gl.rendering import diagnostics
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, presets
 

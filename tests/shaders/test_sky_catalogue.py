@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.render import constellations, star_catalogue, star_index
-from blackhole_gl.render.sky_attitude import attitude
-from blackhole_gl.render.star_catalogue import Stars
+from blackhole_gl.rendering import constellations, star_catalogue, star_index
+from blackhole_gl.rendering.sky_attitude import attitude
+from blackhole_gl.rendering.star_catalogue import Stars
 from tests.shaders.harness import Piece
 from tests.shaders.test_sky_procedural import SIZE, SNIPPET, VIEWS
 

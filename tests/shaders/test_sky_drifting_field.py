@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.render import drifting_field
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering import drifting_field
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.harness import Piece
 

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from blackhole_gl.render import panorama_files
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering import panorama_files
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.harness import Piece
 

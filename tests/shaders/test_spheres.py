@@ -11,8 +11,8 @@ from PIL import Image
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import motion, moving_matter
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
 
 

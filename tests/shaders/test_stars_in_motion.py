@@ -10,9 +10,9 @@ import pytest
 
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.targets import Drawing, Targets
-from blackhole_gl.render import star_cells
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.target import Target
+from blackhole_gl.rendering import star_cells
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 
 WIDTH, HEIGHT = AREA = 640, 360

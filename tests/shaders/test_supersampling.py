@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.render import supersampling
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering import supersampling
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
 SIZE = (240, 136)

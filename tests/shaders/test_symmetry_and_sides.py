@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import disk_profile, relativity
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.hit_texels import HitArrays
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import shadow_edge
 

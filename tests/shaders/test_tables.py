@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import orbit_table
-from blackhole_gl.render import mip_levels, star_index
-from blackhole_gl.render.tables import Tables
+from blackhole_gl.rendering import mip_levels, star_index
+from blackhole_gl.rendering.tables import Tables
 from blackhole_gl.scene import Scene, catalogue
 from blackhole_gl.scene import tables as catalogue_tables
 from blackhole_gl.scene.catalogue import CatalogueError
@@ -98,7 +98,7 @@ def test_a_table_may_bring_its_own_levels(ctx: moderngl.Context) -> None:
 def test_a_level_of_another_size_is_refused_by_its_number(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, second: tuple[int, ...]) -> None:
     monkeypatch.setattr(star_index, "haze", lambda: (np.zeros((8, 16, 1), np.float32), np.zeros(second, np.float32)))
     catalogue_tables._function.cache_clear()
-    own = replace(ORBIT, name="own_levels", make="blackhole_gl.render.star_index:haze", of=(), filter="mipmap")
+    own = replace(ORBIT, name="own_levels", make="blackhole_gl.rendering.star_index:haze", of=(), filter="mipmap")
     with pytest.raises(CatalogueError, match=r"mine.glsl: own_levels: .* made level 1 as float32 .*; allowed, with the filter mipmap, is float32 \(4, 8, 1\)"):
         Tables(ctx).of(declaring(own), Scene())
     catalogue_tables._function.cache_clear()

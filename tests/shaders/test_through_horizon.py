@@ -9,7 +9,7 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.physics import relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 CHI = 2.0 * np.pi * (np.arange(8) + 0.3) / 8

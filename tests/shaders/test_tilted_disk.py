@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from blackhole_gl import listed_rays
-from blackhole_gl.plan import plan
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, catalogue, presets
 from tests.shaders.sampling import random_rays
 

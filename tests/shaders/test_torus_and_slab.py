@@ -11,8 +11,8 @@ from blackhole_gl.physics import relativity
 from blackhole_gl.physics.observer import observe
 from blackhole_gl.physics.torus import Torus
 from blackhole_gl.reference import media, transfer
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.recording import pixel_direction
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, presets
 from tests.shaders.harness import Piece
 

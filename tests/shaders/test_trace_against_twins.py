@@ -7,7 +7,7 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.physics import relativity
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from tests.shaders.sampling import random_rays
 

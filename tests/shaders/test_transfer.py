@@ -10,7 +10,7 @@ import pytest
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.measure import flux
 from blackhole_gl.reference import media, transfer
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
 
 # Gold et al. 2020, as public codes list them, in Jy; their absolute values differ by half a percent to a percent, and so do the two figures that follow.

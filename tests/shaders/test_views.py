@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import disk_profile, relativity
-from blackhole_gl.plan import plan
-from blackhole_gl.render import supersampling
-from blackhole_gl.render.frame import Renderer
-from blackhole_gl.render.views import MAGENTA, RED, Scale, ends_of, linear_light, view_of
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering import supersampling
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.views import MAGENTA, RED, Scale, ends_of, linear_light, view_of
 from blackhole_gl.scene import Scene, fields, presets
 
 SIZE = (48, 30)

@@ -8,10 +8,10 @@ from typing import get_args
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.physics import observer, relativity
-from blackhole_gl.plan import make
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import make
+from blackhole_gl.rendering.frame import Renderer
 from studies import stability, stability_page
 from studies.stability_cases import CASES, Topic, impact
 from studies.stability_viewer import VIEWER_CASES
@@ -127,9 +127,9 @@ def test_escape_directions_do_not_depend_on_the_stop_radius(renderer: Renderer, 
     usual, _, _ = renderer.trace_listed(scene, directions)
     with monkeypatch.context() as changed:
         changed.setattr(make, "MARCH_BOUND", bound)
-        plan.plan.cache_clear()
+        planning.plan.cache_clear()
         moved, _, _ = renderer.trace_listed(scene, directions)
-        plan.plan.cache_clear()
+        planning.plan.cache_clear()
     assert np.any(moved.steps != usual.steps)
     assert np.linalg.norm(moved.direction - usual.direction, axis=1).max() < 2e-5
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.blocks import Block
-from blackhole_gl.render import uniforms
+from blackhole_gl.rendering import uniforms
 
 
 def test_offsets_follow_std140():

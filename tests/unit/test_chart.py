@@ -10,15 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl import listed_rays, plan
+from blackhole_gl import listed_rays, planning
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure import errors, live, refined
 from blackhole_gl.measure import methods as chart_methods
 from blackhole_gl.measure.methods import Combination, exact_for, sensible
 from blackhole_gl.measure.scenes import SHOWN, ChartScene, chart_scenes, critical_radius
 from blackhole_gl.physics import relativity
-from blackhole_gl.plan import choice, measured
-from blackhole_gl.render.frame import Renderer
+from blackhole_gl.planning import choice, measured
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import catalogue, presets
 from studies import critical, finest, lens_by_distance, measure, page, pareto, pictures, run, sizes, table, validation
 from studies.survey import own_twin
@@ -63,7 +63,7 @@ def test_every_marched_method_is_planned_as_it_was_asked_for() -> None:
         for method in sensible(item.scene):
             for setting in method.settings():
                 scene = method.applied(item.scene, setting)
-                made = plan.plan(scene)
+                made = planning.plan(scene)
                 assert made.model.key == method.model
                 if method.integrator:
                     assert (made.integrator.key, made.step_control.key) == (method.integrator, method.step_control)
@@ -214,10 +214,10 @@ def test_the_chart_s_rays_are_those_of_pixels(renderer: Renderer, near: ChartSce
     scene = Combination("kerr", "rk4", "mino").applied(near.scene, 0.1)
     width, height = choice.REFINED_SIZE
     assert near.pixels.min() >= 0 and np.all(near.pixels < (width, height)) and len(np.unique(near.pixels, axis=0)) > 90
-    renderer.time_trace(plan.plan(scene), choice.REFINED_SIZE)
+    renderer.time_trace(planning.plan(scene), choice.REFINED_SIZE)
     x, y = near.pixels.T
     listed = listed_rays.trace_by_shader(renderer, scene, near.rays[: near.count])
-    renderer.time_trace(plan.plan(scene), choice.REFINED_SIZE)
+    renderer.time_trace(planning.plan(scene), choice.REFINED_SIZE)
     found = renderer.hits()
     np.testing.assert_array_equal(found.fate[y, x], listed.fate)
     escaped = (listed.fate == 1) & (near.epsilon[: near.count] > 1e-2)
@@ -238,7 +238,7 @@ def test_a_refined_row_holds_the_tolerance_and_spares_rays(row: measure.Row, ref
 def test_refinement_is_measured_whether_or_not_the_plan_uses_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(9.0, 9.0, 1.0))
     scene = presets.load(["kerr"])
-    assert plan.plan(scene).refine_px == 0.0 and refined.refined_plan(scene).refine_px == plan.refine_px(scene) > 0.0
+    assert planning.plan(scene).refine_px == 0.0 and refined.refined_plan(scene).refine_px == planning.refine_px(scene) > 0.0
 
 
 def test_what_the_plan_may_choose_is_also_measured_refined() -> None:
@@ -326,7 +326,7 @@ def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer) -> None:
     assert (point.method, point.setting) == (Combination("kerr", "rk4", "mino"), 0.8)
     assert point.cost > 0.0 and point.pixels == pytest.approx(point.error / math.radians(42.0 / 1080.0))
     assert 0.0 < measured.share < 1.0
-    taken = plan.plan(presets.load(["kerr"]).with_values(point.method.values(point.setting)))
+    taken = planning.plan(presets.load(["kerr"]).with_values(point.method.values(point.setting)))
     assert (taken.model.key, taken.step_angle) == ("kerr", 0.8)
     measured._left = measured._left[:2]
     while measured.busy:

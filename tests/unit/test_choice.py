@@ -9,9 +9,9 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from blackhole_gl import plan, resources
+from blackhole_gl import planning, resources
 from blackhole_gl.measure.scenes import is_charted, view_of
-from blackhole_gl.plan import choice, measured
+from blackhole_gl.planning import choice, measured
 from blackhole_gl.scene import Scene, presets
 
 PHYSICAL = [info.name for info in presets.available() if info.group in ("physics", "scene") and is_charted(presets.load([info.name]))]
@@ -50,9 +50,9 @@ def test_a_preset_that_nobody_has_measured_goes_by_those_that_are_like_it(name, 
     scene, table_of_all = presets.load([name]), choice.measurements()
     with_its_own = choice.choose(scene).chosen
     monkeypatch.setattr(choice, "measurements", lambda: {other: rows for other, rows in table_of_all.items() if other != name})
-    plan.forget_measurements()
+    planning.forget_measurements()
     made = choice.choose(scene)
-    plan.forget_measurements()
+    planning.forget_measurements()
     assert made.meets and made.chosen.method.kind == with_its_own.method.kind
     assert made.chosen.cost == pytest.approx(with_its_own.cost, rel=0.3)
 
@@ -94,27 +94,27 @@ def test_what_is_stated_is_kept(stated):
 
 
 def test_steps_by_hand_take_the_exact_model():
-    made = plan.plan(Scene().with_values({"rays.step_angle": 0.1, "rays.step_length": 0.1}))
+    made = planning.plan(Scene().with_values({"rays.step_angle": 0.1, "rays.step_length": 0.1}))
     assert made.model.key == "kerr" and made.step_angle == 0.1
     assert "by hand" in made.reasons[0]
 
 
 def test_artistic_gravity_is_marched_and_says_that_nothing_measures_it():
-    made = plan.plan(Scene().with_values({"hole.gravity_strength": 3.0}))
+    made = planning.plan(Scene().with_values({"hole.gravity_strength": 3.0}))
     assert made.model.key == "schwarzschild" and "artistic" in made.reasons[0]
 
 
 def test_thin_rings_are_not_traced():
-    near, far = (plan.plan(Scene().with_values({"camera.distance": d, "camera.fov_deg": 90.0})) for d in (20.0, 9000.0))
+    near, far = (planning.plan(Scene().with_values({"camera.distance": d, "camera.fov_deg": 90.0})) for d in (20.0, 9000.0))
     assert near.orders == 3 and far.orders < 3
     assert any("too thin" in reason for reason in far.reasons)
 
 
 def test_without_a_table_steps_are_plain(monkeypatch):
     monkeypatch.setattr(choice, "measurements", dict)
-    plan.forget_measurements()
+    planning.forget_measurements()
     made = choice.choose(Scene())
-    plan.forget_measurements()
+    planning.forget_measurements()
     assert made.chosen is None and "no measurements" in made.reasons[0] and made.scene.rays.step_angle == 0.2
 
 
@@ -138,7 +138,7 @@ def test_a_choice_reads_the_rows_of_scenes_that_are_near_and_one_of_each_other(m
     read = []
     monkeypatch.setattr(measured, "_row", lambda texts, row=measured._row: read.append(texts["scene"]) or row(texts))
     choice.measurements.cache_clear()
-    plan.forget_measurements()
+    planning.forget_measurements()
     choice.choose(KERR)
     assert read.count("kerr") > 20 and all(read.count(name) == 1 for name in set(read) - {"kerr"})
 
@@ -150,11 +150,11 @@ def stored(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
     def put(*rows: measured.Measured) -> None:
         by_scene = {name: [row for row in rows if row.scene == name] for name in dict.fromkeys(row.scene for row in rows)}
         monkeypatch.setattr(choice, "measurements", lambda: by_scene)
-        plan.forget_measurements()
+        planning.forget_measurements()
 
     yield put
     monkeypatch.undo()
-    plan.forget_measurements()
+    planning.forget_measurements()
 
 
 def test_a_refined_method_is_no_other_method_for_a_picture_at_rest(stored):
@@ -251,5 +251,5 @@ def test_the_thin_lens_is_not_taken_where_it_shows_something_wrong(changes):
 
 
 def test_crossings_that_are_asked_for_are_not_a_thin_lens_s():
-    assert plan.plan(FAR_SKY).model.key == "screen_lens"
-    assert plan.plan(FAR_SKY, keep_crossings=True).model.key != "screen_lens"
+    assert planning.plan(FAR_SKY).model.key == "screen_lens"
+    assert planning.plan(FAR_SKY, keep_crossings=True).model.key != "screen_lens"

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from blackhole_gl.render import constellations, sky_cube, star_catalogue
+from blackhole_gl.rendering import constellations, sky_cube, star_catalogue
 from blackhole_gl.resources import assets_dir, shaders_dir
 
 

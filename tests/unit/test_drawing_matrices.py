@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.render.drawing_matrices import Axes, perspective, project, view_matrix
+from blackhole_gl.rendering.drawing_matrices import Axes, perspective, project, view_matrix
 from blackhole_gl.scene import Scene
 
 CLOSE = 1e-12  # float64, of numbers up to a hundred

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.declared import EdgeMark, Fate
-from blackhole_gl.render.edge_pixels import at_edges, beside_things
+from blackhole_gl.rendering.edge_pixels import at_edges, beside_things
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.app.panel import Panel
 from blackhole_gl.measure.methods import sensible
 from blackhole_gl.measure.scenes import ChartScene, is_physical, true_scene
-from blackhole_gl.plan import choice
+from blackhole_gl.planning import choice
 from blackhole_gl.scene import Scene, catalogue, presets
 
 FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
@@ -30,7 +30,7 @@ def test_the_plan_chooses_among_what_was_measured_of_the_field(model: str) -> No
 
 def test_a_field_of_other_parameters_gets_a_control_that_judges_its_steps() -> None:
     for values in ({"rays__lorenz__strength": 2e-3}, {"rays__field_radius": 20.0}):
-        made = plan.plan(field("lorenz", **values))
+        made = planning.plan(field("lorenz", **values))
         assert made.step_control is not None and made.step_control.traits.adapts
 
 
@@ -43,16 +43,16 @@ def test_the_fields_of_shipped_scenes_are_among_those_measured(name: str) -> Non
     scene = presets.load([name], {"rays.integrator": "auto", "rays.step_control": "auto", "rays.step_length": 0.0})
     if not scene.rays.lensing:
         return
-    made = plan.plan(scene)
+    made = planning.plan(scene)
     assert made.step_control is not None and not made.step_control.traits.adapts
     chosen = choice.choose(scene).chosen
     assert chosen is not None and chosen.error_px <= scene.rays.tolerance
-    other = plan.plan(scene.with_values({"rays.field_radius": 1.3 * scene.rays.field_radius}))
+    other = planning.plan(scene.with_values({"rays.field_radius": 1.3 * scene.rays.field_radius}))
     assert other.step_control is not None and other.step_control.traits.adapts
 
 
 def test_steps_that_are_stated_are_kept() -> None:
-    made = plan.plan(field("lorenz", rays__integrator="euler", rays__step_control="fixed", rays__step_length=0.3))
+    made = planning.plan(field("lorenz", rays__integrator="euler", rays__step_control="fixed", rays__step_length=0.3))
     assert made.method == "lorenz, euler, fixed, Δt₀ = 0.3"
 
 

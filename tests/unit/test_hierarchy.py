@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from blackhole_gl.render import hierarchy
+from blackhole_gl.rendering import hierarchy
 
 
 def _boxes(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:

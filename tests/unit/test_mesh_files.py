@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl.render import mesh_files
-from blackhole_gl.render.mesh_files import Mesh, MeshFiles
+from blackhole_gl.rendering import mesh_files
+from blackhole_gl.rendering.mesh_files import Mesh, MeshFiles
 from blackhole_gl.resources import assets_dir
 from blackhole_gl.scene.schema import SceneError
 

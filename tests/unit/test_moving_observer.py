@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.physics import observer, polarization, relativity
-from blackhole_gl.plan import plan
+from blackhole_gl.planning import plan
 from blackhole_gl.reference import observers as twin
 from blackhole_gl.scene import Scene, SceneError
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.render import panorama_files
-from blackhole_gl.render.sky_cube import on_cube
+from blackhole_gl.rendering import panorama_files
+from blackhole_gl.rendering.sky_cube import on_cube
 from blackhole_gl.scene.schema import SceneError
 
 KEY = "sky.image.file"

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.app import path_world
 from blackhole_gl.app.paths import Asked, Paths, told, within
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics import relativity
-from blackhole_gl.render.recording import RayPath
+from blackhole_gl.rendering.recording import RayPath
 from blackhole_gl.scene import SceneError, presets
 
 KERR = presets.load(["kerr"])
@@ -73,7 +73,7 @@ def test_what_cannot_be_recorded_is_told_until_something_can() -> None:
 
 
 def test_the_space_has_the_hole_the_shell_and_the_disk_of_the_plan() -> None:
-    made, world = plan.plan(KERR), path_world.of(KERR)
+    made, world = planning.plan(KERR), path_world.of(KERR)
     assert world.hole_radius == pytest.approx(relativity.horizon_radius(0.9))
     np.testing.assert_allclose(np.linalg.norm(world.ball, axis=1), 1.0)
     corners = world.ball[world.ball_faces]

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from blackhole_gl.render import picture_files
-from blackhole_gl.render.picture_files import PictureFiles, stamp
+from blackhole_gl.rendering import picture_files
+from blackhole_gl.rendering.picture_files import PictureFiles, stamp
 from blackhole_gl.scene.schema import SceneError
 
 KEY = "sky.picture.file"

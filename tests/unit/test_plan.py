@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from blackhole_gl import plan
+from blackhole_gl import planning
 from blackhole_gl.physics import relativity
-from blackhole_gl.plan import choice
+from blackhole_gl.planning import choice
 from blackhole_gl.scene import Scene, SceneError, catalogue
 
 STATED = {
@@ -22,9 +22,9 @@ STATED = {
 """A method stated in full, so that nothing is left for the plan to choose."""
 
 
-def planned(keep_crossings: bool = False, **changes) -> plan.Plan:
+def planned(keep_crossings: bool = False, **changes) -> planning.Plan:
     stated = {**STATED, **{key.replace("__", "."): value for key, value in changes.items()}}
-    return plan.plan(Scene().with_values(stated), keep_crossings=keep_crossings)
+    return planning.plan(Scene().with_values(stated), keep_crossings=keep_crossings)
 
 
 def test_lensing_off_is_flat_space():
@@ -82,28 +82,28 @@ def test_parts_that_cannot_be_combined_are_refused(monkeypatch):
 @pytest.mark.parametrize("spin, orbit", [(0.0, "prograde"), (0.9, "prograde"), (0.9, "retrograde"), (-0.9, "prograde")])
 def test_the_disk_never_reaches_inside_the_isco(spin, orbit):
     scene = Scene().with_values({"hole.spin": spin, "disk.orbit": orbit, "disk.inner_radius": 0.5})
-    assert plan.plan(scene).disk_inner == pytest.approx(float(relativity.isco_radius(spin, orbit)))
-    assert plan.plan(scene.with_values({"disk.inner_radius": 9.0})).disk_inner == 9.0
+    assert planning.plan(scene).disk_inner == pytest.approx(float(relativity.isco_radius(spin, orbit)))
+    assert planning.plan(scene.with_values({"disk.inner_radius": 9.0})).disk_inner == 9.0
 
 
 def test_the_outer_edge_is_never_inside_the_inner_one():
-    made = plan.plan(Scene().with_values({"disk.outer_radius": 1.0}))
+    made = planning.plan(Scene().with_values({"disk.outer_radius": 1.0}))
     inner, outer = made.disk_inner, made.disk_outer
     assert outer > inner == 3.0
 
 
 def test_far_rays_are_finished_in_closed_form_farther_out_where_gravity_is_stronger():
-    assert plan.plan(Scene()).march_bound == plan.MARCH_BOUND
-    assert plan.plan(Scene().with_values({"hole.gravity_strength": 4.0})).march_bound == 4.0 * plan.MARCH_BOUND
+    assert planning.plan(Scene()).march_bound == planning.MARCH_BOUND
+    assert planning.plan(Scene().with_values({"hole.gravity_strength": 4.0})).march_bound == 4.0 * planning.MARCH_BOUND
 
 
 def test_options_that_do_not_fit_are_named_with_the_reason():
     kerr = Scene().with_values(STATED)
-    controls = plan.unfit_options("rays.step_control", kerr)
+    controls = planning.unfit_options("rays.step_control", kerr)
     assert "marches in mino" in controls["radius"] and "mino" not in controls
     assert "error estimate" in controls["embedded"]
-    assert set(plan.unfit_options("rays.integrator", kerr.with_values({"rays.model": "flat"}))) == set(catalogue.keys("integrator"))
-    assert plan.unfit_options("rays.model", kerr) == {}
+    assert set(planning.unfit_options("rays.integrator", kerr.with_values({"rays.model": "flat"}))) == set(catalogue.keys("integrator"))
+    assert planning.unfit_options("rays.model", kerr) == {}
 
 
 SPINNING = Scene().with_values({"hole.spin": 0.9})
@@ -117,10 +117,10 @@ def _moving(reasons: tuple[str, ...]) -> str:
 
 def test_refinement_that_pays_is_used_and_says_what_it_costs(monkeypatch):
     monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(0.45, 2.1, 4.4))
-    made = plan.plan(SPINNING)
+    made = planning.plan(SPINNING)
     assert made.refine_px == pytest.approx(0.4)
     assert _moving(made.reasons) == "moving: refined, 0.45 px at 2.1 flat frames of 1280×720 against 4.4 for every pixel"
-    off = plan.plan(SPINNING.with_values({"rays.refine": False}))
+    off = planning.plan(SPINNING.with_values({"rays.refine": False}))
     assert off.refine_px == 0.0 and "rays.refine is off" in _moving(off.reasons)
     assert off.method == made.method, "at rest and moving rays are traced by one method"
 
@@ -128,7 +128,7 @@ def test_refinement_that_pays_is_used_and_says_what_it_costs(monkeypatch):
 @pytest.mark.parametrize("found", [choice.Refinement(0.45, 4.5, 4.4), choice.Refinement(0.55, 2.1, 4.4)])
 def test_refinement_that_is_dearer_or_too_coarse_is_not_used(monkeypatch, found):
     monkeypatch.setattr(choice, "refinement", lambda scene: found)
-    made = plan.plan(SPINNING)
+    made = planning.plan(SPINNING)
     assert made.refine_px == 0.0
     assert _moving(made.reasons) == f"moving: a ray for every pixel; refined would be {found}"
 
@@ -136,7 +136,7 @@ def test_refinement_that_is_dearer_or_too_coarse_is_not_used(monkeypatch, found)
 def test_steps_stated_by_hand_that_miss_the_tolerance_are_refined_all_the_same(monkeypatch):
     monkeypatch.setattr(choice, "refinement", lambda scene: choice.Refinement(5.0, 2.1, 4.4))
     assert planned(rays__model="kerr", rays__step_control="mino", rays__step_angle=0.8).refine_px > 0.0
-    assert plan.plan(SPINNING.with_values({"rays.tolerance": 0.001})).refine_px > 0.0, "no method meets it"
+    assert planning.plan(SPINNING.with_values({"rays.tolerance": 0.001})).refine_px > 0.0, "no method meets it"
 
 
 def test_what_was_not_measured_is_refined_unless_its_rays_cost_nothing(monkeypatch):
@@ -167,5 +167,5 @@ def test_steps_that_err_more_than_is_allowed_are_told():
 
 def test_a_tolerance_that_cannot_be_met_is_told():
     open_ = {"rays.tolerance": 0.001, "hole.spin": 0.9, "camera.distance": 1.5}
-    (warning,) = plan.plan(Scene().with_values(open_)).warnings
+    (warning,) = planning.plan(Scene().with_values(open_)).warnings
     assert "0.001 px of error cannot be met here" in warning

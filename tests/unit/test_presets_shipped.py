@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from blackhole_gl.plan import choice, plan
+from blackhole_gl.planning import choice, plan
 from blackhole_gl.resources import assets_dir, presets_dir
 from blackhole_gl.scene import Scene, catalogue, fields, presets
 

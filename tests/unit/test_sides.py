@@ -8,7 +8,7 @@ import pytest
 
 from blackhole_gl.app.sides import KEPT, MOST_ACCURATE, Sides
 from blackhole_gl.app.state import WindowState
-from blackhole_gl.plan import plan
+from blackhole_gl.planning import plan
 from blackhole_gl.scene import presets
 
 COARSE = presets.load(["kerr"], {"rays.model": "schwarzschild", "rays.integrator": "euler", "camera.azimuth_deg": 70.0, "playback.rate": 2.0})

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from blackhole_gl.render import star_cells
+from blackhole_gl.rendering import star_cells
 from blackhole_gl.resources import shaders_dir
 
 

@@ -7,8 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from blackhole_gl.render import sky_cube, star_catalogue, star_index
-from blackhole_gl.render.star_catalogue import GALAXY_CENTRE, GALAXY_POLE, Stars
+from blackhole_gl.rendering import sky_cube, star_catalogue, star_index
+from blackhole_gl.rendering.star_catalogue import GALAXY_CENTRE, GALAXY_POLE, Stars
 from blackhole_gl.resources import shaders_dir
 
 DARK = np.zeros((6, star_index.TILE, star_index.TILE, 3))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import moderngl
 
 from ..glsl.declared import PixelClass
-from ..plan import Plan
+from ..planning import Plan
 from .programs import Draw
 
 

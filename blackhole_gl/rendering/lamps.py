@@ -8,7 +8,7 @@ import numpy as np
 
 from ..physics import motion
 from ..physics.observer import observe
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import Instance, met
 from ..scene.schema import number_of
 from ..shapes import Float

@@ -9,7 +9,7 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import Playback, Post, Scene, Sky
 from .hit_map import HitMap
 from .inputs import FrameInputs

@@ -10,7 +10,7 @@ import numpy as np
 from ..glsl.declared import Fate
 from ..physics import accretion, disk_profile, lensed_circles, plunging, relativity, tilted_disk
 from ..physics.observer import observe
-from ..plan import Plan
+from ..planning import Plan
 from . import instances
 from .hit_texels import HitArrays
 from .inputs import FrameInputs

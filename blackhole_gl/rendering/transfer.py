@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import met
 from ..shapes import Float
 from .classes import THINGS, drawn

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..plan import Plan
+from ..planning import Plan
 from . import instances, transfer
 from .inputs import FrameInputs
 from .programs import chosen

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import moderngl
 
-from ..plan import GRID_MARGIN, REFINE_STEP
+from ..planning import GRID_MARGIN, REFINE_STEP
 from . import hit_texels
 from .classes import THINGS, Where, drawn
 from .inputs import FrameInputs

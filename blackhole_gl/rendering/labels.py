@@ -15,8 +15,8 @@ import numpy as np
 from ..physics import lensed_circles, relativity
 from ..physics.observer import Observer, observe
 from ..physics.space_time import space_time
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene
 from ..shapes import Float
 from .views import Colour

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import moderngl
 
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import FrozenMap, Scene
 from .classes import EVERYWHERE, Where, drawn
 from .hit_map import HitMap

@@ -5,7 +5,7 @@ from __future__ import annotations
 import moderngl
 
 from ..physics import disk_profile
-from ..plan import Plan
+from ..planning import Plan
 
 
 class TemperatureProfile:

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..glsl.declared import Fate
 from ..physics.space_time import is_field
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene, presets
 from .hit_map import HitMap
 from .inputs import FrameInputs

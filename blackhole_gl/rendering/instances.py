@@ -14,7 +14,7 @@ import moderngl
 import numpy as np
 
 from ..physics import motion
-from ..plan import Plan
+from ..planning import Plan
 from ..scene import FrozenMap, Scene, met, surfaces
 from ..scene.instances import Instances
 from ..scene.plug_in import PlugIn

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import moderngl
 
-from ..plan import Plan
+from ..planning import Plan
 from . import uniforms
 
 

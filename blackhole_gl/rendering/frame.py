@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import moderngl
 import numpy as np
 
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene
 from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, pixel_values, supersampling, views
 from .coarse_transfer import CoarseMedia

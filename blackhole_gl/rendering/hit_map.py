@@ -13,7 +13,7 @@ import moderngl
 import numpy as np
 
 from ..physics.observer import cos_sin_deg
-from ..plan import REACH_STEP, REFINE_STEP, Plan
+from ..planning import REACH_STEP, REFINE_STEP, Plan
 from . import hit_texels, reach, refinement
 from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS
 from .frame_met import NOTHING_MET, FrameMet

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene, met
 from . import hit_texels
 from .hit_map import HitArrays, HitMap

@@ -13,8 +13,8 @@ import numpy as np
 
 from ..glsl.declared import Fate
 from ..physics import observer, tilted_disk
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene
 from ..shapes import Bool, Float, Int
 from .hit_map import HitMap

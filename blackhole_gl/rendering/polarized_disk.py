@@ -13,8 +13,8 @@ import numpy as np
 from ..physics import disk_profile, lensed_circles, polarization, scattering_atmosphere
 from ..physics.observer import Observer, observe
 from ..physics.polarization import MagneticField, PolarizedLight
-from ..plan import Plan
-from ..plan import plan as make_plan
+from ..planning import Plan
+from ..planning import plan as make_plan
 from ..scene import Scene, met
 from ..shapes import Float
 from . import labels

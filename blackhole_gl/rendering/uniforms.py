@@ -12,7 +12,7 @@ from functools import cache
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
 from ..physics import accretion, observer, plunging, shear, tilted_disk
-from ..plan import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
+from ..planning import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields, met
 from ..scene.tables import Number
 from . import instances, pictures

@@ -15,7 +15,7 @@ import moderngl
 
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
-from ..plan import Plan
+from ..planning import Plan
 from ..resources import shaders_dir, user_shaders_dir
 from ..scene import catalogue, met
 from . import instances, uniforms

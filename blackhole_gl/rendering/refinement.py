@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
-from ..plan import GRID_MARGIN, REFINE_STEP
+from ..planning import GRID_MARGIN, REFINE_STEP
 from .classes import Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs

@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 
 from ..physics import motion
-from ..plan import REACH_STEP, REFINE_STEP, Plan
+from ..planning import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
 from ..shapes import Float, Int
 from .classes import EVERYWHERE, Where, drawn
