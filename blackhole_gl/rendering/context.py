@@ -14,33 +14,73 @@ INSTALL_LINE = "apt-get install -y --no-install-recommends libegl1 libgl1"
 OSMESA_LINE = "apt-get install -y --no-install-recommends libosmesa6"
 
 
+# More than any machine has.
+_MOST_DEVICES = 64
+
+_first_made_in = 0
+"""The process that made the first context of this one and of those it was forked from; 0 where there was none."""
+
+
 class ContextError(RuntimeError):
     """No GL context could be made; the text says what was tried and the line that mends it."""
 
 
-def create_headless(backend: str = "auto") -> moderngl.Context:
-    """A GL 3.3 core context that needs no display.
+def create_headless(backend: str = "auto", device: int | None = None) -> moderngl.Context:
+    """A GL 3.3 core context that needs no display, current in the thread that calls.
 
     Args:
         backend: ``egl``, ``osmesa`` or ``auto``; auto takes the environment variable BLACKHOLE_GL_BACKEND, or the first that works.
+        device: which of `device_names`, by number; through EGL alone. The driver's first when None.
 
     Raises:
         ContextError: none could be made.
-        ValueError: an unknown backend.
+        ValueError: an unknown backend, or a device without EGL.
     """
+    global _first_made_in
     chosen = os.environ.get(ENVIRONMENT, "auto") if backend == "auto" else backend
     if chosen not in (*BACKENDS, "auto"):
         raise ValueError(f"backend: got {chosen!r}; allowed is one of auto, {', '.join(BACKENDS)}")
+    if device is not None:
+        if chosen == "osmesa":
+            raise ValueError(f"device: got {device}; osmesa draws on the processor alone, allowed with a device is egl")
+        chosen = "egl"
+    if forked_from_gl():
+        raise ContextError("this process was forked from one that uses OpenGL, whose driver does not outlive a fork: start it by spawn, or exec")
+    _first_made_in = os.getpid()
     failures = []
     for name in BACKENDS if chosen == "auto" else (chosen,):
         try:
-            return _MAKERS[name]()
+            return _egl(device) if name == "egl" else _osmesa()
         except Exception as error:  # whatever a GL loader throws, the next way is tried and the reason is kept
             failures.append(f"{name}: {error}")
     raise ContextError(
         f"no OpenGL 3.3 context without a display could be made ({'; '.join(failures)}). "
         f"On Debian or Ubuntu: {INSTALL_LINE}, or for OSMesa: {OSMESA_LINE}"
     )
+
+
+def forked_from_gl() -> bool:
+    """Whether this process was forked from one that has used OpenGL: its driver's threads are not here, and the first picture would be waited for for ever."""
+    return _first_made_in not in (0, os.getpid())
+
+
+def device_names() -> tuple[str, ...]:
+    """What the devices that EGL can draw on call themselves, by number, each with its own driver. Leaves the last of them current in the thread that calls.
+
+    Raises:
+        ContextError: there is none.
+    """
+    names: list[str] = []
+    while len(names) < _MOST_DEVICES:
+        try:
+            made = create_headless("egl", len(names))
+        except ContextError:
+            if not names:
+                raise
+            break
+        names.append(describe(made))
+        made.release()
+    return tuple(names)
 
 
 def describe(ctx: moderngl.Context) -> str:
@@ -59,11 +99,12 @@ def _context(**settings: Any) -> moderngl.Context:
     return moderngl.create_context(require=330, **settings)
 
 
-def _egl() -> moderngl.Context:
+def _egl(device: int | None) -> moderngl.Context:
+    chosen = {} if device is None else {"device_index": device}
     try:
-        return _context(standalone=True, backend="egl", libgl="libGL.so.1", libegl="libEGL.so.1")  # by name: to look for them runs ldconfig, twice
+        return _context(standalone=True, backend="egl", libgl="libGL.so.1", libegl="libEGL.so.1", **chosen)  # by name: to look for them runs ldconfig, twice
     except Exception:  # elsewhere they have other names
-        return _context(standalone=True, backend="egl")
+        return _context(standalone=True, backend="egl", **chosen)
 
 
 class _GlfwLoader:
@@ -106,6 +147,3 @@ def _osmesa() -> moderngl.Context:
         raise ContextError(": ".join(["OSMesa cannot be loaded", *said[-1:]]))
     glfw.make_context_current(window)
     return _context(context=_GlfwLoader(glfw, window))
-
-
-_MAKERS = {"egl": _egl, "osmesa": _osmesa}

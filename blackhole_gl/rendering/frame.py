@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -227,8 +227,31 @@ class Renderer:
         Raises:
             As `render`.
         """
+        plan = self._still_plan(scene, samples)
+        total = yield from self._summed(plan, time, size, samples, tile)
+        texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
+        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
+        texture.release()
+
+    def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
+        """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
+
+        Raises:
+            As `render`.
+        """
+        parts = self._summed(self._still_plan(scene, samples), time, size, samples, TILE)
+        while True:
+            try:
+                next(parts)
+            except StopIteration as end:
+                return end.value[::-1, :, :3].copy()
+
+    def _still_plan(self, scene: Scene, samples: int) -> Plan:
         made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))
-        plan = self.exposure.of(diagnostics.prepared(made), at_once=True)
+        return self.exposure.of(diagnostics.prepared(made), at_once=True)
+
+    def _summed(self, plan: Plan, time: float, size: tuple[int, int], samples: int, tile: int) -> Generator[float, None, np.ndarray]:
+        """Yields the share done after each ray a pixel of a tile; returns the mean radiance, float32 (height, width, 4), row 0 at the bottom."""
         width, height = size
         self._fit_view(plan, size)
         total = np.zeros((height, width, 4), np.float32)
@@ -243,9 +266,7 @@ class Renderer:
             part = _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile]
             total[y : y + tile, x : x + tile] += part / samples**2
             yield (done + 1) / len(passes)
-        texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
-        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
-        texture.release()
+        return total
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
         """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use, wherever the camera looks.

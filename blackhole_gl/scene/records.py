@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache, partial
 from operator import attrgetter
 from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 from . import catalogue, instances, sections
 from .frozen import FrozenMap
@@ -42,6 +42,13 @@ class Scene:
     media: Instances = FrozenMap()
     source: Source = Source()
     polarization: Polarization = Polarization()
+
+    as_png: ClassVar[Callable[[Scene], bytes] | None] = None
+    """Draws a scene that a notebook shows; set by what can draw, which stands above this."""
+
+    def _repr_png_(self) -> bytes | None:
+        draw = type(self).as_png
+        return None if draw is None else draw(self)
 
     def get(self, key: str) -> Value:
         """The value of `key`.

@@ -36,6 +36,11 @@ class SceneError(ValueError):
         self.key, self.message, self.entry = key, message, entry
 
 
+def _from_numpy(value: Any) -> Any:
+    """`value`, or the number, switch or list of Python's own that a NumPy scalar or array holds."""
+    return value.tolist() if hasattr(value, "dtype") and hasattr(value, "tolist") else value
+
+
 @dataclass(frozen=True)
 class Field:
     """One settable value.
@@ -96,11 +101,12 @@ class Field:
         return f"{number} from {self.low:g} to {self.high:g}{unit}{infinity}"
 
     def check(self, value: Any) -> Value:
-        """`value` in the field's own type.
+        """`value` in the field's own type. Numbers and lists may be NumPy's.
 
         Raises:
             SceneError: of another type, out of range or not a number.
         """
+        value = _from_numpy(value)
         if self.kind == "switch":
             if isinstance(value, bool):
                 return value

@@ -1,0 +1,336 @@
+"""What ``import blackhole_gl as bh`` offers: scenes in, arrays out. It needs no display, and none of it needs a word of OpenGL.
+
+Every function may be called from any thread, and from processes however they were started; what several ask for at once is done one after the other. Sizes are
+(width, height) in pixels, each 1 to 16384; arrays of pictures have their top row first. Numbers may be NumPy's.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, SupportsIndex
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import listed_rays
+from .gl_thread import GlThread
+from .glsl.declared import Fate
+from .output import png
+from .physics import observer
+from .planning import Plan
+from .planning import plan as make_plan
+from .rendering import context
+from .rendering.annotation import annotated
+from .rendering.frame import Renderer as _Renderer
+from .scene import Scene, SceneError
+from .scene import presets as preset_files
+from .scene.presets import PresetInfo
+from .shapes import Float, Int
+
+_MOST_SIDE = 16384
+_RAYS_AT_ONCE = 1 << 18  # that are listed: 80 bytes of textures each
+_IN_NOTEBOOKS = (640, 360)
+
+
+@dataclass(frozen=True)
+class Rays:
+    """What became of rays, arrays of the shape (…) that they were given in.
+
+    Attributes:
+        fate: int (…): a `Fate`: 0 unresolved, 1 escaped, 2 captured, 3 met something opaque.
+        direction: (…, 3): the asymptotic unit vector in the world of an escaped ray; NaN of the others.
+        crossing: (…, 3, 2): r in r_s and φ in radians of the first three crossings of the disk's plane, whether there is a disk or not; NaN without.
+        g: (…, 3): E_infinity/E_emitter of matter on a circular orbit there, or falling in where the scene has it so; NaN without.
+        lam: (…): L_z/E in M of the photon that arrives; NaN where there is none.
+        steps: int (…): steps that the ray took.
+    """
+
+    fate: Int[np.ndarray, "*rays"]
+    direction: Float[np.ndarray, "*rays 3"]
+    crossing: Float[np.ndarray, "*rays 3 2"]
+    g: Float[np.ndarray, "*rays 3"]
+    lam: Float[np.ndarray, "*rays"]
+    steps: Int[np.ndarray, "*rays"]
+
+
+class Renderer:
+    """Draws scenes by a GL context of its own; any number of them may be used in turn or side by side.
+
+    The functions of this module use one that they share, which is enough for most: others are for other GPUs. Each is closed when it is no longer used, or
+    by `close`, or as a context manager.
+
+    Args:
+        gpu: which of `gpus`, by number or by a part of its name in any case; the driver's first when None.
+        backend: how to draw without a display: ``egl``, ``osmesa`` or ``auto``, the first of them that works.
+
+    Raises:
+        ValueError: there is no such GPU, or no such backend.
+    """
+
+    def __init__(self, gpu: SupportsIndex | str | None = None, *, backend: str = "auto"):
+        if backend not in (*context.BACKENDS, "auto"):
+            raise ValueError(f"backend: got {backend!r}; allowed is one of auto, {', '.join(context.BACKENDS)}")
+        self._thread = GlThread(None if gpu is None else _device(gpu), backend)
+
+    def render(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> np.ndarray:
+        """As the function `render`."""
+        return self._thread.call(_rendered, *_asked(scene, size, time, samples))
+
+    def radiance(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> np.ndarray:
+        """As the function `radiance`."""
+        return self._thread.call(_Renderer.still_radiance, *_asked(scene, size, time, samples))
+
+    def trace(
+        self,
+        scene: Scene,
+        psi: ArrayLike | None = None,
+        chi: ArrayLike | None = None,
+        *,
+        alpha: ArrayLike | None = None,
+        beta: ArrayLike | None = None,
+    ) -> Rays:
+        """As the function `trace`."""
+        first, second = _coordinates(scene, psi, chi, alpha, beta)
+        return self._traced(scene, np.stack([first, second], axis=-1))
+
+    def hits(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
+        """As the function `hits`."""
+        return self._traced(scene, _pixel_rays(scene, _size(size)))
+
+    def close(self) -> None:
+        """Gives back all that it holds; it cannot be used any more."""
+        self._thread.close()
+
+    def __enter__(self) -> Renderer:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _traced(self, scene: Scene, rays: Float[np.ndarray, "*rays 2"]) -> Rays:
+        listed = rays.reshape(-1, 2)
+        parts = [listed[start : start + _RAYS_AT_ONCE] for start in range(0, max(len(listed), 1), _RAYS_AT_ONCE)]
+        found = [_as_rays(self._thread.call(listed_rays.trace_by_shader, scene, part)) for part in parts]
+        whole = {item.name: np.concatenate([getattr(part, item.name) for part in found]) for item in fields(Rays)}
+        return Rays(**{name: values.reshape(*rays.shape[:-1], *values.shape[1:]) for name, values in whole.items()})
+
+
+def load(presets: str | Path | Sequence[str | Path] = ("kerr",), values: Mapping[str, Any] | None = None, *, any_file: bool = False) -> Scene:
+    """A scene from presets, each over the one before it, and single values over all: ``load("kerr", {"hole.spin": 0.5})``.
+
+    Args:
+        presets: names (see `presets`), ``.toml`` files, or pictures made by this program.
+        values: dotted key → value; `Scene.fields` lists the keys, their ranges and units. A thing is made by its kind: ``{"things.moon.kind": "sphere"}``.
+        any_file: let presets and pictures open files outside their own folders, too.
+
+    Raises:
+        SceneError: no such preset or key, or a value that is not allowed; the text says what is.
+    """
+    return preset_files.load([presets] if isinstance(presets, (str, Path)) else list(presets), dict(values or {}), any_file=any_file)
+
+
+def presets() -> list[PresetInfo]:
+    """The presets that there are: name, title, description, group and path of each."""
+    return preset_files.available()
+
+
+def render(scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> np.ndarray:
+    """The picture of `scene`, uint8 (height, width, 3), sRGB: bit for bit what ``blackhole-gl render`` writes.
+
+    Args:
+        time: scene time in r_s/c.
+        samples: rays a pixel along each axis, 1 to 16; as the scene's quality has it when None.
+
+    Raises:
+        SceneError, ValueError: the scene cannot be drawn, or an argument is out of range; the text says what is allowed.
+        ContextError: there is no OpenGL here; the text says what to install.
+    """
+    return _shared.render(scene, size, time, samples)
+
+
+def radiance(scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> np.ndarray:
+    """Linear scene-referred radiance of the same, float32 (height, width, 3), before exposure, bloom and tone map. Arguments and errors as in `render`."""
+    return _shared.radiance(scene, size, time, samples)
+
+
+def trace(
+    scene: Scene, psi: ArrayLike | None = None, chi: ArrayLike | None = None, *, alpha: ArrayLike | None = None, beta: ArrayLike | None = None
+) -> Rays:
+    """Traces listed rays by the shader that pictures use, wherever the camera looks. Arrays of any shapes that broadcast.
+
+    Args:
+        psi: 0 to π, the angle from the direction to the hole's centre.
+        chi: angle on the screen from right (+e_φ) towards up, in radians; 0 when None.
+        alpha, beta: screen coordinates in M, right and up, instead, for a camera at infinity.
+
+    Raises:
+        ValueError: other arguments than this camera takes, out of range or not finite.
+        SceneError, ContextError: as in `render`.
+    """
+    return _shared.trace(scene, psi, chi, alpha=alpha, beta=beta)
+
+
+def hits(scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
+    """What the ray through the middle of each pixel of a picture meets, in arrays (height, width, …). Arguments and errors as in `render`."""
+    return _shared.hits(scene, size)
+
+
+def plan(scene: Scene) -> Plan:
+    """How the rays of `scene` are traced, and why: method, steps, reasons and warnings.
+
+    Raises:
+        SceneError: its ray model, integrator and step control do not fit together.
+    """
+    return make_plan(scene)
+
+
+def save(path: str | Path, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> Path:
+    """Writes a ``.png`` of `scene`, which carries it, or a ``.toml`` preset of it; both `load` and the viewer open again. Returns the path.
+
+    Raises:
+        ValueError: another suffix; as in `render`.
+        OSError: it cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() == ".toml":
+        return preset_files.save(scene, path, time=time or None)
+    if path.suffix.lower() != ".png":
+        raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is .png, a picture, or .toml, a preset")
+    png.write(path, render(scene, size, time, samples), preset_files.picture_text(scene, float(time), path.absolute().parent))
+    return path
+
+
+def show(scene: Scene, *, wait: bool = True) -> subprocess.Popen:
+    """Opens the viewer on `scene`, in a process of its own.
+
+    Args:
+        wait: return when it is closed.
+
+    Returns:
+        That process.
+    """
+    kept = tempfile.mkdtemp(prefix="blackhole-gl-")
+    path = preset_files.save(scene, Path(kept) / "scene.toml", title="From Python")
+    # The folder of the scene goes with the viewer, which reads it once.
+    program = f"import shutil, sys; sys.path[:] = {sys.path!r}; sys.argv[1:] = ['view', '--any-file', {str(path)!r}]\n" + (
+        f"from blackhole_gl.cli import main\ntry:\n    main()\nfinally:\n    shutil.rmtree({kept!r}, ignore_errors=True)"
+    )
+    viewer = subprocess.Popen([sys.executable, "-c", program])
+    if wait:
+        viewer.wait()
+    return viewer
+
+
+def gpus() -> tuple[str, ...]:
+    """What this machine can draw on without a display: a name for each, in the order of their numbers.
+
+    Raises:
+        ContextError: there is none, or this process was forked from one that has drawn.
+    """
+    with ThreadPoolExecutor(1) as aside:  # contexts are made, which must not become current here
+        return aside.submit(context.device_names).result()
+
+
+def _device(gpu: SupportsIndex | str) -> int:
+    """The number of the GPU called for.
+
+    Raises:
+        ValueError: there is none such.
+    """
+    names = gpus()
+    if isinstance(gpu, str):
+        found = [number for number, name in enumerate(names) if gpu.lower() in name.lower()]
+    else:
+        found = [operator.index(gpu)] if 0 <= operator.index(gpu) < len(names) else []
+    if not found:
+        listed = "; ".join(f"{number}: {name}" for number, name in enumerate(names))
+        raise ValueError(f"gpu: got {gpu!r}; allowed is a number or a part of a name among {listed}")
+    return found[0]
+
+
+def _size(size: Sequence[SupportsIndex]) -> tuple[int, int]:
+    try:
+        width, height = (operator.index(side) for side in size)
+    except (TypeError, ValueError):
+        width = height = 0
+    if not (1 <= width <= _MOST_SIDE and 1 <= height <= _MOST_SIDE):
+        raise ValueError(f"size: got {size!r}; allowed is (width, height), whole numbers from 1 to {_MOST_SIDE}")
+    return width, height
+
+
+def _asked(scene: Scene, size: Sequence[SupportsIndex], time: float, samples: SupportsIndex | None) -> tuple[Scene, float, tuple[int, int], int]:
+    """What a picture is made of, checked, in the order that `still_radiance` takes it."""
+    rays = scene.rays.in_stills if samples is None else operator.index(samples)
+    if not 1 <= rays <= 16:
+        raise ValueError(f"samples: got {samples!r}; allowed is 1 to 16 rays a pixel along each axis")
+    if not math.isfinite(time):
+        raise ValueError(f"time: got {time!r}; allowed is a finite number, in r_s/c")
+    return scene, float(time), _size(size), rays
+
+
+def _coordinates(
+    scene: Scene, psi: ArrayLike | None, chi: ArrayLike | None, alpha: ArrayLike | None, beta: ArrayLike | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """The two coordinates of rays that the camera of `scene` takes, broadcast."""
+    wanted = listed_rays.columns(scene)
+    given = {"psi": psi, "chi": 0.0 if chi is None and psi is not None else chi, "alpha": alpha, "beta": beta}
+    there = tuple(name for name, values in given.items() if values is not None)
+    if there != wanted:
+        raise ValueError(f"rays: got {', '.join(there) or 'nothing'}; this camera (camera.distance = {scene.camera.distance:g}) takes {' and '.join(wanted)}")
+    first, second = np.broadcast_arrays(*(np.asarray(given[name], float) for name in wanted))
+    if not (np.isfinite(first).all() and np.isfinite(second).all()):
+        raise ValueError(f"rays: allowed are finite {' and '.join(wanted)}")
+    if wanted == listed_rays.ANGLES and ((first < 0.0) | (first > math.nextafter(math.pi, 4.0))).any():
+        raise ValueError("psi: allowed is 0 to π radians, from the direction to the hole's centre")
+    return first, second
+
+
+def _pixel_rays(scene: Scene, size: tuple[int, int]) -> Float[np.ndarray, "height width 2"]:
+    """The coordinates of the rays through the middles of the pixels of a picture of `size`."""
+    width, height = size
+    camera = scene.camera
+    far = math.isinf(camera.distance)
+    half_height = 0.5 * camera.field_m if far else math.tan(math.radians(0.5 * camera.fov_deg))
+    right = (2.0 * np.arange(width) + 1.0 - width) * half_height / height
+    up = (height - 1.0 - 2.0 * np.arange(height)) * half_height / height
+    seen = np.stack(np.broadcast_arrays(-1.0, -up[:, None], right), axis=-1) @ observer.look_rotation(camera).T
+    if far:
+        return np.stack([seen[..., 2], -seen[..., 1]], axis=-1)
+    return np.stack(observer.screen_angles(seen), axis=-1)
+
+
+def _as_rays(found: listed_rays.TracedRays) -> Rays:
+    return Rays(
+        fate=found.fate,
+        direction=found.direction,
+        crossing=np.stack([found.crossing_r, found.crossing_phi], axis=-1),
+        g=found.crossing_g,
+        lam=found.lambda_,
+        steps=found.steps,
+    )
+
+
+def _rendered(renderer: _Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
+    renderer.render_still(scene, time, size, samples)
+    return annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
+
+
+def _as_png(scene: Scene) -> bytes:
+    return png.encode(render(scene, _IN_NOTEBOOKS), preset_files.picture_text(scene, 0.0, Path(os.curdir).absolute()))
+
+
+Scene.as_png = _as_png
+_shared = Renderer()
+
+__all__ = [
+    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "gpus", "hits", "load", "plan", "presets", "radiance", "render", "save", "show", "trace",
+]  # fmt: skip
