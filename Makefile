@@ -14,7 +14,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow test-pythons gallery thumbnails chart fields stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery thumbnails api-page chart fields stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -39,6 +39,10 @@ gallery: ## the pictures of the README anew, into docs/pictures
 thumbnails: ## the small pictures of the panel's pickers anew, into assets/thumbnails
 	@$(SETUP) run
 	$(BIN)/python tools/make_thumbnails.py
+
+api-page: ## docs/python_reference.md anew, from the docstrings
+	@$(SETUP) run
+	$(BIN)/python tools/make_api_page.py
 
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart

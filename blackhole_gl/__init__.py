@@ -16,7 +16,27 @@ import os
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .api import Fate, Plan, Rays, Renderer, Scene, SceneError, gpus, hits, load, plan, presets, radiance, render, save, show, trace
+    from .api import (
+        Fate,
+        Plan,
+        Rays,
+        Renderer,
+        Scene,
+        SceneError,
+        ScreenCurve,
+        critical_curve,
+        gpus,
+        hits,
+        isoradials,
+        load,
+        plan,
+        presets,
+        radiance,
+        render,
+        save,
+        show,
+        trace,
+    )  # fmt: skip
 
 # Read when NumPy is first imported, which takes 40 % longer where OpenBLAS starts a thread for each core: all our matrices are small.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -24,7 +44,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 VERSION = "0.1.0"
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "gpus", "hits", "load", "plan", "presets", "radiance", "render", "save", "show", "trace",
+    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "critical_curve", "gpus", "hits", "isoradials", "load", "plan", "presets",
+    "radiance", "render", "save", "show", "trace",
 ]  # fmt: skip
 
 

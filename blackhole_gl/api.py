@@ -25,7 +25,8 @@ from . import listed_rays
 from .gl_thread import GlThread
 from .glsl.declared import Fate
 from .output import png
-from .physics import observer
+from .physics import observer, screen_curves
+from .physics.screen_curves import ScreenCurve
 from .planning import Plan
 from .planning import plan as make_plan
 from .rendering import context
@@ -121,7 +122,7 @@ class Renderer:
         parts = [listed[start : start + _RAYS_AT_ONCE] for start in range(0, max(len(listed), 1), _RAYS_AT_ONCE)]
         found = [_as_rays(self._thread.call(listed_rays.trace_by_shader, scene, part)) for part in parts]
         whole = {item.name: np.concatenate([getattr(part, item.name) for part in found]) for item in fields(Rays)}
-        return Rays(**{name: values.reshape(*rays.shape[:-1], *values.shape[1:]) for name, values in whole.items()})
+        return Rays(**{name: values.reshape((*rays.shape[:-1], *values.shape[1:])) for name, values in whole.items()})
 
 
 def load(presets: str | Path | Sequence[str | Path] = ("kerr",), values: Mapping[str, Any] | None = None, *, any_file: bool = False) -> Scene:
@@ -135,7 +136,7 @@ def load(presets: str | Path | Sequence[str | Path] = ("kerr",), values: Mapping
     Raises:
         SceneError: no such preset or key, or a value that is not allowed; the text says what is.
     """
-    return preset_files.load([presets] if isinstance(presets, (str, Path)) else list(presets), dict(values or {}), any_file=any_file)
+    return preset_files.load([presets] if isinstance(presets, (str, Path)) else list(presets), dict(values or {}), any_file=any_file, source="")
 
 
 def presets() -> list[PresetInfo]:
@@ -191,6 +192,24 @@ def plan(scene: Scene) -> Plan:
         SceneError: its ray model, integrator and step control do not fit together.
     """
     return make_plan(scene)
+
+
+def critical_curve(scene: Scene, samples: int = 512) -> ScreenCurve:
+    """The edge of the shadow, light on spherical orbits (Bardeen 1973): exact at each of `samples` points, in M, µas and pixels.
+
+    Raises:
+        SceneError: the scene's space-time has no photon orbits.
+    """
+    return screen_curves.critical_curve(scene, samples)
+
+
+def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples: int = 512) -> list[ScreenCurve]:
+    """The images of circles of the equatorial plane (Luminet 1979), each of `radii` (r_s) by each of `orders`: 0 the direct image, 1 the first ring, ….
+
+    Raises:
+        SceneError: the scene's space-time has no closed form, or a radius or an order is out of range.
+    """
+    return screen_curves.isoradials(scene, radii, orders, samples)
 
 
 def save(path: str | Path, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> Path:
@@ -332,5 +351,6 @@ Scene.as_png = _as_png
 _shared = Renderer()
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "gpus", "hits", "load", "plan", "presets", "radiance", "render", "save", "show", "trace",
+    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "critical_curve", "gpus", "hits", "isoradials", "load", "plan", "presets",
+    "radiance", "render", "save", "show", "trace",
 ]  # fmt: skip

@@ -127,24 +127,28 @@ def circles(
 
 
 def shadow_edge(observer: Observer, angles: Float[Array, " N"]) -> Float[Array, " N"]:
-    """How far from the hole's centre (`directions`) the critical curve is seen at `angles` on the screen.
+    """How far from the hole's centre (`directions`) the critical curve is seen at `angles` on the screen."""
+    away, around = critical_points(observer, _EDGE_POINTS)
+    return _along(angles, around, away)
+
+
+def critical_points(observer: Observer, samples: int) -> tuple[Float[Array, " samples"], Float[Array, " samples"]]:
+    """How far from the hole's centre (`directions`) points of the critical curve are seen, and at which angles on the screen.
 
     The constants of light on spherical orbits that come to the camera are those that a far observer at its inclination would see on its own critical curve;
     w' is then a root of the radial equation: inwards where the camera is outside of the orbit, where the equation's right-hand side falls with w.
     """
     cosine, sine = float(observer.n[2]), math.hypot(observer.n[0], observer.n[1])
-    aside, up = critical_curve(observer.spin, math.atan2(sine, cosine), _EDGE_POINTS)
+    aside, up = critical_curve(observer.spin, math.atan2(sine, cosine), samples)
     if observer.w == 0.0:
-        away, around = np.hypot(aside, up), np.arctan2(up, aside)
-    else:
-        a, lam, w = observer.spin, -sine * aside, observer.w
-        eta = up**2 + cosine**2 * (aside**2 - a**2)
-        c2, c3, c4 = a * a - lam**2 - eta, 2.0 * ((lam - a) ** 2 + eta), -a * a * eta
-        square, slope = 1.0 + w * w * (c2 + w * (c3 + w * c4)), w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4))
-        w_rate = -np.sign(slope) * np.sqrt(np.maximum(square, 0.0))
-        seen = np.linalg.solve(observer.tetrad, np.stack([np.ones_like(lam), w_rate, -up, aside]))
-        away, around = screen_angles((seen[1:] / seen[0]).T @ _about_hole(observer))
-    return _along(angles, around, away)
+        return np.hypot(aside, up), np.arctan2(up, aside)
+    a, lam, w = observer.spin, -sine * aside, observer.w
+    eta = up**2 + cosine**2 * (aside**2 - a**2)
+    c2, c3, c4 = a * a - lam**2 - eta, 2.0 * ((lam - a) ** 2 + eta), -a * a * eta
+    square, slope = 1.0 + w * w * (c2 + w * (c3 + w * c4)), w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4))
+    w_rate = -np.sign(slope) * np.sqrt(np.maximum(square, 0.0))
+    seen = np.linalg.solve(observer.tetrad, np.stack([np.ones_like(lam), w_rate, -up, aside]))
+    return screen_angles((seen[1:] / seen[0]).T @ _about_hole(observer))
 
 
 def directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Array, " N"]) -> Float[Array, "*at N 3"]:

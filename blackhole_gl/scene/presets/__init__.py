@@ -108,7 +108,9 @@ def _find(name: str) -> tuple[Path, str]:
     raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in .toml or .png.")
 
 
-def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None, *, any_file: bool = False) -> Scene:
+def load(
+    names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str, Any] | None = None, *, any_file: bool = False, source: str = "--set"
+) -> Scene:
     """The scene that the presets say, each over the one before it, and `overrides` over all.
 
     Where nothing but looks, qualities and steps is named, they lie over `DEFAULT_PRESETS`.
@@ -118,6 +120,7 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
         overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``; lists as in TOML, paths from
             the working folder.
         any_file: the presets may name files outside their own folders, too.
+        source: what overrides are called in errors.
 
     Raises:
         PresetError: see `read`; or an override is wrong.
@@ -125,7 +128,7 @@ def load(names_or_paths: Sequence[str | Path] | str = (), overrides: Mapping[str
     scene = Scene()
     for layer in _layers(names_or_paths, any_file):
         scene = layer.over(scene)
-    return _overridden(scene, overrides or {})
+    return _overridden(scene, overrides or {}, source)
 
 
 def skipped(names_or_paths: Sequence[str | Path], *, any_file: bool = False) -> list[str]:
@@ -234,14 +237,14 @@ def _is_path(name_or_path: str | Path) -> bool:
     return isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png"))
 
 
-def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:
+def _overridden(scene: Scene, overrides: Mapping[str, Any], source: str) -> Scene:
     """`scene` with the overrides put in, kinds first: they make the instances that others may be about."""
     kinds = {key for key in overrides if (place := instances.place_of(key)) is not None and place.parameter == KIND}
     values: dict[str, Any] = {}
     for key in sorted(overrides, key=lambda key: key not in kinds):
         given = overrides[key]
         if instances.place_of(key) is None and key not in fields():
-            raise PresetError(unknown_key(key), key=key, source="--set")
+            raise PresetError(unknown_key(key), key=key, source=source)
         try:
             if key in kinds:
                 scene = scene.with_values({key: given})
@@ -250,8 +253,8 @@ def _overridden(scene: Scene, overrides: Mapping[str, Any]) -> Scene:
             values[key] = paths.anchored(item, item.parse(given) if isinstance(given, str) else item.check(given), Path.cwd())
         except SceneError as error:
             hint = decimal_comma(given) if isinstance(given, str) else ""
-            raise PresetError(error.message + hint, key=key, source="--set") from None
+            raise PresetError(error.message + hint, key=key, source=source) from None
     try:
         return scene.with_values(values)  # all at once: what one of them may be can depend on another
     except SceneError as error:
-        raise PresetError(error.message, key=error.key, source="--set") from None
+        raise PresetError(error.message, key=error.key, source=source) from None
