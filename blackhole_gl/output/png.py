@@ -63,6 +63,16 @@ def write(path: str | Path, pixels: np.ndarray, scene_text: str = "") -> None:
     write_whole(path, encode(pixels, scene_text))
 
 
+def read(path: str | Path) -> np.ndarray:
+    """The pixels of the picture at `path`, uint8 (height, width, 3), top row first.
+
+    Raises:
+        OSError: it cannot be read, or is no picture.
+    """
+    with Image.open(path) as picture:
+        return np.asarray(picture.convert("RGB"))
+
+
 def read_scene_text(path: str | Path) -> str:
     """The preset that the PNG at `path` carries, as TOML.
 

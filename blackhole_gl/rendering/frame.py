@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -229,9 +229,7 @@ class Renderer:
         """
         plan = self._still_plan(scene, samples)
         total = yield from self._summed(plan, time, size, samples, tile)
-        texture = self.ctx.texture(size, 4, total.astype(np.float16).tobytes(), dtype="f2")
-        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
-        texture.release()
+        self._show(plan, time, size, total)
 
     def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
         """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
@@ -239,12 +237,33 @@ class Renderer:
         Raises:
             As `render`.
         """
-        parts = self._summed(self._still_plan(scene, samples), time, size, samples, TILE)
+        return self._gathered(self._still_plan(scene, samples), time, size, samples)[::-1, :, :3].copy()
+
+    def render_mean(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int = 1) -> None:
+        """Draws the mean light of several (scene, time), exposed as the middle one, as `render_still` draws one.
+
+        Raises:
+            As `render`.
+        """
+        plans = [self._still_plan(scene, samples) for scene, _ in moments]
+        total = sum(self._gathered(plan, time, size, samples) for plan, (_, time) in zip(plans, moments)) / len(moments)
+        middle = len(moments) // 2
+        self._show(plans[middle], moments[middle][1], size, total)
+
+    def _gathered(self, plan: Plan, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
+        """What `_summed` returns."""
+        parts = self._summed(plan, time, size, samples, TILE)
         while True:
             try:
                 next(parts)
             except StopIteration as end:
-                return end.value[::-1, :, :3].copy()
+                return end.value
+
+    def _show(self, plan: Plan, time: float, size: tuple[int, int], light: np.ndarray) -> None:
+        """Draws `light`, float32 (height, width, 4) with row 0 at the bottom, into the own picture."""
+        texture = self.ctx.texture(size, 4, light.astype(np.float16).tobytes(), dtype="f2")
+        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
+        texture.release()
 
     def _still_plan(self, scene: Scene, samples: int) -> Plan:
         made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))

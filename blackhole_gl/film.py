@@ -1,0 +1,255 @@
+"""Films: every frame drawn as `render` draws it at its exact time, kept as a PNG until the film is whole, so that a film goes on after whatever stopped it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .output import png
+from .output.files import write_whole
+from .physics.flight import Flight, Moment
+from .rendering.annotation import annotated
+from .rendering.frame import Renderer
+from .scene import presets
+
+if TYPE_CHECKING:
+    import av
+
+_MANIFEST = "film.json"
+_WAITING = 2  # frames that are drawn and not yet written: one is packed while the next is drawn
+_BLUR_SAMPLES = 8  # moments in a frame while the shutter is open
+
+
+@dataclass(frozen=True)
+class Codec:
+    """How pictures are packed.
+
+    Attributes:
+        encoders: names of FFmpeg's that do, the best first.
+        suffixes: of files that may hold it.
+        pixels: the format of its pixels.
+        options: of the encoder, nearly without loss.
+    """
+
+    encoders: tuple[str, ...]
+    suffixes: tuple[str, ...]
+    pixels: str
+    options: tuple[tuple[str, str], ...]
+
+
+CODECS = {
+    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "medium"))),
+    "h265": Codec(("libx265",), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "18"), ("tag", "hvc1"), ("x265-params", "log-level=none"))),
+    "vp9": Codec(("libvpx-vp9",), (".webm", ".mkv"), "yuv420p", (("crf", "20"), ("b", "0"), ("row-mt", "1"))),
+    "av1": Codec(("libsvtav1", "libaom-av1"), (".mp4", ".webm", ".mkv"), "yuv420p10le", (("crf", "22"),)),
+    "prores": Codec(("prores_ks",), (".mov",), "yuv422p10le", (("profile", "3"),)),
+}
+_USUAL = {".mp4": "h264", ".mov": "prores", ".webm": "vp9", ".mkv": "h264"}
+SUFFIXES = tuple(_USUAL)
+
+
+class FilmError(ValueError):
+    """A film that cannot be made; the text says what is allowed."""
+
+
+@dataclass(frozen=True)
+class Film:
+    """What a film shows.
+
+    Attributes:
+        fps: frames a second, exactly.
+        count: of its frames; number k shows the flight at k/fps seconds.
+        size: (width, height) in pixels.
+        samples: rays a pixel along each axis.
+        shutter_deg: for how much of a frame's time, as an angle of 360, light is gathered from its moment on; 0: a moment.
+    """
+
+    flight: Flight
+    fps: Fraction
+    count: int
+    size: tuple[int, int]
+    samples: int = 1
+    shutter_deg: float = 0.0
+
+    def moments(self, number: int) -> list[Moment]:
+        """What frame `number` is the mean of."""
+        start = Fraction(number) / self.fps
+        if not self.shutter_deg:
+            return [self.flight.at(float(start))]
+        open_for = Fraction(self.shutter_deg) / 360 / self.fps
+        return [self.flight.at(float(start + open_for * Fraction(2 * k + 1, 2 * _BLUR_SAMPLES))) for k in range(_BLUR_SAMPLES)]
+
+    def told(self) -> str:
+        """All that its frames depend on, as JSON."""
+        flight = self.flight
+        about = {
+            "scene": presets.picture_text(flight.scene, flight.start),
+            "keys": [[keyframe.at, dict(keyframe.values)] for keyframe in flight.keys],
+            "way": None if flight.way is None else [flight.way.kind, flight.way.rate, flight.way.distance],
+            "rate": flight.rate,
+            "fps": str(self.fps),
+            "frames": self.count,
+            "size": self.size,
+            "samples": self.samples,
+            "shutter_deg": self.shutter_deg,
+        }
+        return json.dumps(about, indent=1, default=list) + "\n"
+
+
+def frames_folder(out: Path) -> Path:
+    """Where the frames of the film `out` lie until it is whole; `out` itself where that is to be a folder of pictures."""
+    return out.with_name(f"{out.name}.frames") if out.suffix else out
+
+
+def codec_of(out: Path, name: str | None) -> str:
+    """The codec of the film `out`.
+
+    Raises:
+        FilmError: there is none called `name`, it does not go into such a file, or the file's suffix is unknown.
+    """
+    suffix = out.suffix.lower()
+    if suffix not in _USUAL:
+        raise FilmError(f"{out}: got the suffix {out.suffix}; allowed is {', '.join(SUFFIXES)}, or a name without one: a folder of PNG pictures")
+    chosen = _USUAL[suffix] if name is None else name
+    if chosen not in CODECS:
+        raise FilmError(f"--codec: got {name!r}; allowed is one of {', '.join(CODECS)}")
+    if suffix not in CODECS[chosen].suffixes:
+        raise FilmError(f"--codec: got {chosen} in a {suffix} file; allowed there is {', '.join(key for key, codec in CODECS.items() if suffix in codec.suffixes)}")
+    return chosen
+
+
+def begin(film: Film, folder: Path) -> None:
+    """Makes `folder` ready for the frames of `film`; what is there of the same film stays.
+
+    Raises:
+        FilmError: it holds frames of another film.
+        OSError: it cannot be made.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    manifest = folder / _MANIFEST
+    if manifest.is_file() and manifest.read_text(encoding="utf-8") != film.told():
+        raise FilmError(f"{folder} holds frames of another film, or of this one with other settings: remove it, or choose another --out")
+    write_whole(manifest, film.told().encode("utf-8"))
+
+
+def frame_path(folder: Path, number: int) -> Path:
+    """The file of frame `number`."""
+    return folder / f"frame_{number:06}.png"
+
+
+def missing(film: Film, folder: Path, numbers: Iterable[int]) -> list[int]:
+    """Those of `numbers` that are still to be drawn. A frame is written whole or not at all."""
+    return [number for number in numbers if not frame_path(folder, number).is_file()]
+
+
+def draw(film: Film, folder: Path, numbers: Iterable[int], renderer: Renderer, progress: Callable[[float], None] | None = None) -> int:
+    """Draws those frames of `numbers` that are missing; returns how many those were.
+
+    Raises:
+        SceneError, ValueError: a moment cannot be drawn.
+        OSError: a frame cannot be written.
+    """
+    wanted = missing(film, folder, numbers)
+    waiting: list[Future[None]] = []
+    with ThreadPoolExecutor(1) as writer:
+        for done, number in enumerate(wanted):
+            moments = film.moments(number)
+            shown = moments[len(moments) // 2]
+            renderer.render_mean([(moment.scene, moment.time) for moment in moments], film.size, film.samples)
+            pixels = annotated(renderer.read_rgb8(), shown.scene, renderer.view_of(shown.scene))
+            text = presets.picture_text(shown.scene, shown.time, folder.absolute())
+            waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text))
+            while len(waiting) > _WAITING:
+                waiting.pop(0).result()
+            if progress is not None:
+                progress((done + 1) / len(wanted))
+        for written in waiting:
+            written.result()
+    return len(wanted)
+
+
+def encoders() -> dict[str, str]:
+    """Codec → the encoder that this installation has for it.
+
+    Raises:
+        FilmError: there is no PyAV.
+    """
+    available = _av().codec.codecs_available
+    found = {name: next((encoder for encoder in codec.encoders if encoder in available), "") for name, codec in CODECS.items()}
+    return {name: encoder for name, encoder in found.items() if encoder}
+
+
+def encode(film: Film, folder: Path, out: Path, codec_name: str) -> None:
+    """Packs all frames in `folder` into `out`, which is written whole or not at all.
+
+    Raises:
+        FilmError: there is no PyAV or no such encoder, or the codec takes even sizes alone.
+    """
+    av, codec, available = _av(), CODECS[codec_name], encoders()
+    if codec_name not in available:
+        raise FilmError(f"--codec: got {codec_name}, which this installation of PyAV cannot write; allowed is one of {', '.join(available)}")
+    part = out.with_name(f".{out.stem}.part{out.suffix}")
+    try:
+        with av.open(str(part), "w") as container:
+            container.metadata.update({"title": film.flight.title or out.stem, "comment": film.told()})
+            stream = _stream(container, film, codec, available[codec_name])
+            for number, pixels in enumerate(_pictures(film, folder)):
+                picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709")
+                picture.pts, picture.time_base = number, 1 / film.fps
+                container.mux(stream.encode(picture))
+            container.mux(stream.encode(None))
+        part.replace(out)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def refuse_size(size: tuple[int, int], codec_name: str) -> None:
+    """Raises FilmError where pictures of `size` cannot be packed: colours have half the resolution."""
+    if any(side % 2 for side in size):
+        raise FilmError(f"--size: got {size[0]}x{size[1]}; allowed with {codec_name} are even numbers")
+
+
+def clear(folder: Path) -> None:
+    """Removes the frames of a film that is whole."""
+    shutil.rmtree(folder)
+
+
+def _stream(container: av.container.OutputContainer, film: Film, codec: Codec, encoder: str) -> av.VideoStream:
+    options = dict(codec.options)
+    tag = options.pop("tag", None)
+    stream = container.add_stream(encoder, rate=film.fps, options=options)
+    stream.width, stream.height = film.size
+    stream.pix_fmt = codec.pixels
+    context = stream.codec_context
+    context.time_base = 1 / film.fps
+    context.color_primaries = context.color_trc = context.colorspace = 1  # BT.709, which players take for HD pictures
+    if tag:
+        context.codec_tag = tag
+    return stream
+
+
+def _pictures(film: Film, folder: Path) -> Iterator[np.ndarray]:
+    """Each frame, uint8 (height, width, 3), read ahead by one."""
+    with ThreadPoolExecutor(1) as reader:
+        ahead = reader.submit(png.read, frame_path(folder, 0))
+        for number in range(film.count):
+            pixels = ahead.result()
+            if number + 1 < film.count:
+                ahead = reader.submit(png.read, frame_path(folder, number + 1))
+            yield pixels
+
+
+def _av():
+    try:
+        import av
+    except ImportError:
+        raise FilmError("a film needs PyAV: pip install 'blackhole-gl[film]'; an --out without a suffix gives a folder of PNG pictures instead") from None
+    return av
