@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +20,6 @@ from .physics.flight import Flight, Moment
 from .rendering.annotation import annotated
 from .rendering.frame import Renderer
 from .scene import presets
-
-if TYPE_CHECKING:
-    import av
 
 _MANIFEST = "film.json"
 _WAITING = 2  # frames that are drawn and not yet written: one is packed while the next is drawn
@@ -122,7 +120,8 @@ def codec_of(out: Path, name: str | None) -> str:
     if chosen not in CODECS:
         raise FilmError(f"--codec: got {name!r}; allowed is one of {', '.join(CODECS)}")
     if suffix not in CODECS[chosen].suffixes:
-        raise FilmError(f"--codec: got {chosen} in a {suffix} file; allowed there is {', '.join(key for key, codec in CODECS.items() if suffix in codec.suffixes)}")
+        fitting = [key for key, codec in CODECS.items() if suffix in codec.suffixes]
+        raise FilmError(f"--codec: got {chosen} in a {suffix} file; allowed there is {', '.join(fitting)}")
     return chosen
 
 
@@ -222,7 +221,7 @@ def clear(folder: Path) -> None:
     shutil.rmtree(folder)
 
 
-def _stream(container: av.container.OutputContainer, film: Film, codec: Codec, encoder: str) -> av.VideoStream:
+def _stream(container: Any, film: Film, codec: Codec, encoder: str) -> Any:
     options = dict(codec.options)
     tag = options.pop("tag", None)
     stream = container.add_stream(encoder, rate=film.fps, options=options)
@@ -247,7 +246,8 @@ def _pictures(film: Film, folder: Path) -> Iterator[np.ndarray]:
             yield pixels
 
 
-def _av():
+def _av() -> Any:
+    os.environ.setdefault("SVT_LOG", "1")  # of the encoder of AV1, which tells its settings else
     try:
         import av
     except ImportError:

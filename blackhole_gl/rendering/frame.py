@@ -246,7 +246,9 @@ class Renderer:
             As `render`.
         """
         plans = [self._still_plan(scene, samples) for scene, _ in moments]
-        total = sum(self._gathered(plan, time, size, samples) for plan, (_, time) in zip(plans, moments)) / len(moments)
+        total = np.zeros((size[1], size[0], 4), np.float32)
+        for plan, (_, time) in zip(plans, moments):
+            total += self._gathered(plan, time, size, samples) / len(moments)
         middle = len(moments) // 2
         self._show(plans[middle], moments[middle][1], size, total)
 

@@ -1,0 +1,144 @@
+"""Films: frames at exact times, kept until the film is whole, and packed without a lost or a doubled one."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+
+from blackhole_gl import film, films
+from blackhole_gl.output import png
+from blackhole_gl.physics import flight
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.scene import presets
+
+SIZE = (64, 36)
+PATH = "rate = 4.0\n[[keys]]\nat = 0\ncamera.azimuth_deg = 0.0\n[[keys]]\nat = 1\ncamera.azimuth_deg = 60.0\n"
+
+
+@pytest.fixture(scope="module")
+def made() -> film.Film:
+    return film.Film(flight.parse(PATH, presets.load(["kerr"])), Fraction(8), 9, SIZE)
+
+
+@pytest.fixture(scope="module")
+def drawn(made: film.Film, renderer: Renderer, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("film") / "x.mp4.frames"
+    film.begin(made, folder)
+    assert film.draw(made, folder, range(9), renderer) == 9
+    return folder
+
+
+def test_a_frame_is_what_render_draws_at_its_time(made: film.Film, drawn: Path, renderer: Renderer) -> None:
+    for number in (0, 5, 8):
+        moment = made.flight.at(number / 8.0)
+        renderer.render_still(moment.scene, moment.time, SIZE)
+        assert np.array_equal(png.read(film.frame_path(drawn, number)), renderer.read_rgb8())
+        assert presets.load([str(film.frame_path(drawn, number))]) == moment.scene
+
+
+def test_a_film_that_was_stopped_twice_goes_on_with_the_first_missing_frame(
+    made: film.Film, drawn: Path, renderer: Renderer, tmp_path: Path
+) -> None:
+    folder = tmp_path / "frames"
+    shares: list[float] = []
+
+    def stop(share: float) -> None:
+        shares.append(share)
+        if len(shares) % 4 == 0:
+            raise KeyboardInterrupt
+
+    for _ in range(2):
+        film.begin(made, folder)
+        with pytest.raises(KeyboardInterrupt):
+            film.draw(made, folder, range(9), renderer, stop)
+    assert film.missing(made, folder, range(9)) == [8]
+    film.begin(made, folder)
+    assert film.draw(made, folder, range(9), renderer) == 1
+    for number in range(9):
+        assert film.frame_path(folder, number).read_bytes() == film.frame_path(drawn, number).read_bytes()
+
+
+def test_frames_of_another_film_are_not_mixed_in(made: film.Film, drawn: Path) -> None:
+    other = film.Film(made.flight, made.fps, 10, SIZE)
+    with pytest.raises(film.FilmError, match="holds frames of another film"):
+        film.begin(other, drawn)
+    film.begin(made, drawn)
+
+
+@pytest.mark.parametrize("name", ["x.mp4", "x.mov", "x.webm"])
+def test_a_packed_film_has_every_frame_at_its_time(made: film.Film, drawn: Path, tmp_path: Path, name: str) -> None:
+    out = tmp_path / name
+    film.encode(made, drawn, out, film.codec_of(out, None))
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    with av.open(str(out)) as container:
+        stream = container.streams.video[0]
+        assert stream.average_rate == 8
+        frames = list(container.decode(video=0))
+        assert [float(frame.pts * frame.time_base) for frame in frames] == pytest.approx([k / 8.0 for k in range(9)], abs=1e-3)
+        assert "camera.azimuth_deg" in container.metadata.get("comment", container.metadata.get("COMMENT", ""))
+    for number, frame in enumerate(frames):
+        shown = frame.reformat(format="rgb24", src_colorspace="ITU709").to_ndarray().astype(int)
+        apart = [np.abs(shown - png.read(film.frame_path(drawn, k))).mean() for k in range(9)]
+        # Half of the colours' resolution and the packing cost up to 3 levels of 255 in such small pictures of stars.
+        assert apart[number] < 4.0
+        if 2 < number < 6:  # at its ends the flight rests nearly, and its frames are alike
+            assert np.argmin(apart) == number
+
+
+def test_a_shutter_gathers_light_from_the_frames_moment_on(made: film.Film, renderer: Renderer, tmp_path: Path) -> None:
+    blurred = film.Film(made.flight, Fraction(1), 2, SIZE, shutter_deg=180.0)
+    times = [moment.time for moment in blurred.moments(0)]
+    assert times == pytest.approx(4.0 * (np.arange(8) + 0.5) / 16)
+    film.begin(blurred, tmp_path / "b")
+    film.draw(blurred, tmp_path / "b", [0], renderer)
+    found = png.read(film.frame_path(tmp_path / "b", 0))
+    single = []
+    for moment in blurred.moments(0):
+        renderer.render_still(moment.scene, moment.time, SIZE)
+        single.append(renderer.read_rgb8())
+    # The tone map is monotone, and so the mean of light lies between the darkest and the brightest moment; dithering adds a level on both sides.
+    within = (found.astype(int) >= np.min(single, axis=0).astype(int) - 2) & (found.astype(int) <= np.max(single, axis=0).astype(int) + 2)
+    assert within.mean() > 0.995
+    assert np.abs(found.astype(int) - single[4]).mean() > 0.3, "it is not one of them"
+
+
+def test_the_command_shares_out_frames_and_packs_when_all_are_there(renderer: Renderer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(films, "renderer_by", lambda backend: renderer)
+    out, path = tmp_path / "x.mp4", tmp_path / "path.toml"
+    path.write_text(PATH, encoding="utf-8")
+    for share in ("0:3", "3:"):
+        films.video(out, names=["kerr"], path=path, fps="4", size="32x18", frames=share)
+        assert out.exists() == (share == "3:")
+    assert not film.frames_folder(out).exists()
+    with av.open(str(out)) as container:
+        assert sum(1 for _ in container.decode(video=0)) == 5, "the flight's last moment is on the last frame"
+    films.video(tmp_path / "pictures", names=["kerr"], fps="5", seconds=0.4, size="32x18")
+    assert sorted(path.name for path in (tmp_path / "pictures").glob("*.png")) == ["frame_000000.png", "frame_000001.png"]
+
+
+WRONG = (
+    ({"out": "x.avi"}, "got the suffix .avi; allowed is .mp4, .mov, .webm, .mkv, or a name without one"),
+    ({"codec": "mpeg2"}, "--codec: got 'mpeg2'; allowed is one of h264, h265, vp9, av1, prores"),
+    ({"codec": "prores"}, "--codec: got prores in a .mp4 file; allowed there is h264, h265, av1"),
+    ({"size": "33x18"}, "--size: got 33x18; allowed with h264 are even numbers"),
+    ({"fps": "0"}, "--fps: got '0'; allowed is a number up to 1000"),
+    ({"fps": "1/0"}, "--fps: got '1/0'"),
+    ({"seconds": None}, "--seconds: missing"),
+    ({"seconds": 0.001}, "which is 0 frames"),
+    ({"frames": "5"}, "--frames: got '5'; allowed is FIRST:END within 0:30"),
+    ({"frames": "40:50"}, "--frames: got '40:50'"),
+    ({"path": Path("none.toml")}, "none.toml: cannot be read"),
+)
+
+
+@pytest.mark.parametrize("values, words", WRONG, ids=lambda value: "" if isinstance(value, str) else str(value))
+def test_what_cannot_be_is_told_before_anything_is_drawn(values: dict, words: str, tmp_path: Path) -> None:
+    given = {"out": "x.mp4", "seconds": 1.0, "size": "32x18", **values}
+    with pytest.raises(ValueError) as told:
+        films.video(tmp_path / given.pop("out"), names=["kerr"], **given)
+    assert words in str(told.value)
+    assert list(tmp_path.iterdir()) == []

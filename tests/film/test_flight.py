@@ -1,0 +1,122 @@
+"""Flights: what stands between keys, what gravity decides, and what is told of mistakes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from blackhole_gl.physics import flight
+from blackhole_gl.scene import Scene, presets
+
+ROOT = Path(__file__).resolve().parents[2]
+STILL = Scene().with_values({"rays.model": "kerr", "hole.spin": 0.9, "camera.distance": 20.0})
+
+
+def keys(*entries: str) -> str:
+    return "".join(f"[[keys]]\n{entry}\n" for entry in entries)
+
+
+def test_numbers_are_smooth_between_keys_and_never_beyond_them() -> None:
+    given = {0.0: 30.0, 1.0: 10.0, 1.5: 9.0, 4.0: 9.0, 5.0: 14.0}
+    flown = flight.parse(keys(*(f"at = {at}\ncamera.distance = {value}" for at, value in given.items())), STILL)
+    seconds = np.linspace(0.0, 5.0, 501)
+    found = np.array([flown.at(float(at)).scene.camera.distance for at in seconds])
+    for at, value in given.items():
+        assert flown.at(at).scene.camera.distance == pytest.approx(value, abs=1e-12)
+    assert np.all(np.diff(found[:151]) <= 1e-12) and np.all(np.diff(found[400:]) >= -1e-12) and np.all(found[151:400] == 9.0)
+    assert np.abs(np.diff(found, 2)).max() < 0.02, "no kink: a step of a hundredth of a second changes its slope by little"
+    assert flown.at(-1.0).scene.camera.distance == 30.0 and flown.at(9.0).scene.camera.distance == 14.0
+    assert flown.seconds == 5.0
+
+
+def test_switches_and_choices_change_at_their_keys() -> None:
+    flown = flight.parse(keys("at = 0\ndisk.enabled = false", "at = 2\ndisk.enabled = true\nrays.orders = 1", "at = 3\nrays.orders = 3"), STILL)
+    assert [flown.at(at).scene.disk.enabled for at in (0.0, 1.99, 2.0, 5.0)] == [False, False, True, True]
+    assert [flown.at(at).scene.rays.orders for at in (2.0, 2.99, 3.0)] == [1, 1, 3]
+
+
+def test_scene_time_runs_by_the_rate() -> None:
+    flown = flight.parse("rate = 2.5\n" + keys("at = 0\npost.exposure = 0.0", "at = 4\npost.exposure = 1.0"), STILL, start=10.0)
+    assert [flown.at(at).time for at in (0.0, 2.0)] == [10.0, 15.0]
+
+
+@pytest.mark.parametrize("spin, inclination", [(0.0, 80.0), (0.9, 90.0), (0.9, 30.0)])
+def test_a_fall_takes_the_time_that_its_geodesic_does(spin: float, inclination: float) -> None:
+    """dr/dτ and dt/dτ of the fall from rest at infinity with L = 0, Q = 0, by quadrature (M = 1)."""
+    model = "kerr" if spin else "schwarzschild"
+    scene = STILL.with_values({"rays.model": model, "hole.spin": spin, "camera.inclination_deg": inclination, "camera.distance": 15.0})
+    flown = flight.parse('[way]\nkind = "rain"\n', scene)
+    for proper in (5.0, 20.0, 30.0):
+        moment = flown.at(proper)
+        r, cosine2 = 2.0 * moment.scene.camera.distance, math.cos(math.radians(inclination)) ** 2
+
+        def rate(x: float) -> float:
+            return (x * x + spin**2 * cosine2) / math.sqrt(2.0 * x * (x * x + spin**2))  # noqa: B023
+
+        def far(x: float) -> float:
+            delta = x * x - 2.0 * x + spin**2
+            area = (x * x + spin**2) ** 2 - delta * spin**2 * (1.0 - cosine2)  # noqa: B023
+            return rate(x) * area / (delta * (x * x + spin**2 * cosine2))  # noqa: B023
+
+        # Between 4096 samples of the way it is interpolated: 1e-6 of it.
+        assert 0.5 * quad(rate, r, 30.0)[0] == pytest.approx(proper, rel=1e-5)
+        assert 0.5 * quad(far, r, 30.0)[0] == pytest.approx(moment.far_time, rel=1e-5)
+        assert (moment.proper_time, moment.time, moment.scene.camera.observer) == (proper, proper, "rain")
+
+
+def test_rain_in_schwarzschilds_space_has_the_speed_of_escape() -> None:
+    scene = STILL.with_values({"rays.model": "schwarzschild", "hole.spin": 0.0})
+    moment = flight.parse('[way]\nkind = "rain"\ndistance = 4.0', scene).at(1.0)
+    assert moment.speed == pytest.approx(moment.scene.camera.distance**-0.5, rel=1e-6)
+
+
+def test_an_orbit_turns_by_keplers_law_and_its_clock_is_slow() -> None:
+    flown = flight.parse('[way]\nkind = "orbit"\nrate = 2.0\ndistance = 6.0', STILL.with_values({"hole.spin": 0.0, "rays.model": "schwarzschild"}))
+    moment = flown.at(3.0)
+    assert moment.proper_time == 6.0 and moment.far_time == pytest.approx(6.0 / math.sqrt(1.0 - 1.5 / 6.0))
+    assert moment.scene.camera.azimuth_deg == pytest.approx(math.degrees(math.sqrt(0.5 / 6.0**3) * moment.far_time))
+    assert moment.speed == pytest.approx(math.sqrt(0.5 / (6.0 - 1.0)))
+    assert moment.scene.camera.observer == "circular"
+    assert flown.seconds == math.inf
+
+
+MISTAKES = {
+    "nothing = 1": "nothing: no such entry; allowed are title, rate, keys, way",
+    "rate = 1.0": "neither [[keys]] nor a [way]",
+    "rate = true\n[way]\nkind = 'orbit'": "rate: got True; allowed is 0 to 100",
+    "x = ": "not TOML",
+    keys("camera.distance = 3"): "[[keys]] 1: at is missing",
+    keys("at = 1", "at = 1"): "[[keys]] 2: at: got 1; allowed is more than 1",
+    keys("at = 0\ncamera.distanc = 3"): "did you mean camera.distance?",
+    keys("at = 0\ncamera.distance = -3"): "[[keys]] 1: camera.distance: got -3; allowed is a number from",
+    "[way]\nkind = 'up'": "[way] kind: got 'up'; allowed is one of rain, orbit",
+    "[way]\nkind = 'rain'\nspeed = 3": "[way] speed: no such entry; allowed are kind, rate, distance",
+    "[way]\nkind = 'rain'\ndistance = 0.2": "[way] begins at 0.2 r_s; allowed is outside the horizon",
+    "[way]\nkind = 'rain'\n" + keys("at = 0\ncamera.distance = 3"): "camera.distance is decided by the [way]",
+    "keys = 3": "keys: allowed is a [[keys]] for each keyframe",
+}
+
+
+@pytest.mark.parametrize("text", MISTAKES)
+def test_mistakes_are_told(text: str) -> None:
+    with pytest.raises(flight.FlightError) as told:
+        flight.parse(text, STILL, "dive.toml")
+    assert str(told.value).startswith("dive.toml: ") and MISTAKES[text] in str(told.value)
+
+
+def test_a_flight_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(flight.FlightError, match="cannot be read: No such file"):
+        flight.read(tmp_path / "none.toml", STILL)
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples" / "flights").glob("*.toml")), ids=lambda path: path.stem)
+def test_the_examples_fly(path: Path) -> None:
+    scene = presets.load(["kerr"], {"camera.inclination_deg": 90.0})
+    flown = flight.read(path, scene)
+    assert flown.title
+    for share in np.linspace(0.0, 1.0, 7):
+        flown.at(share * min(flown.seconds, 20.0))
