@@ -340,7 +340,7 @@ def _as_rays(found: listed_rays.TracedRays) -> Rays:
 
 def _rendered(renderer: _Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
     renderer.render_still(scene, time, size, samples)
-    return annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
+    return np.ascontiguousarray(annotated(renderer.read_rgb8(), scene, renderer.view_of(scene)))
 
 
 def _as_png(scene: Scene) -> bytes:

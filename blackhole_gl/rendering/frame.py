@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -228,8 +228,12 @@ class Renderer:
             As `render`.
         """
         plan = self._still_plan(scene, samples)
-        total = yield from self._summed(plan, time, size, samples, tile)
-        self._show(plan, time, size, total)
+        light = self.ctx.texture(size, 4, dtype="f2")  # filled here, as a large picture is better not held twice
+        for share, (x, y), part in self._parts(plan, time, size, samples, tile):
+            if part is not None:
+                light.write(part.astype(np.float16), viewport=(x, y, part.shape[1], part.shape[0]))
+            yield share
+        self._show(plan, time, light)
 
     def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
         """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
@@ -250,44 +254,43 @@ class Renderer:
         for plan, (_, time) in zip(plans, moments):
             total += self._gathered(plan, time, size, samples) / len(moments)
         middle = len(moments) // 2
-        self._show(plans[middle], moments[middle][1], size, total)
+        self._show(plans[middle], moments[middle][1], self.ctx.texture(size, 4, total.astype(np.float16), dtype="f2"))
 
     def _gathered(self, plan: Plan, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
-        """What `_summed` returns."""
-        parts = self._summed(plan, time, size, samples, TILE)
-        while True:
-            try:
-                next(parts)
-            except StopIteration as end:
-                return end.value
+        """The mean radiance, float32 (height, width, 4), row 0 at the bottom."""
+        light = np.empty((size[1], size[0], 4), np.float32)
+        for _, (x, y), part in self._parts(plan, time, size, samples, TILE):
+            if part is not None:
+                light[y : y + TILE, x : x + TILE] = part
+        return light
 
-    def _show(self, plan: Plan, time: float, size: tuple[int, int], light: np.ndarray) -> None:
-        """Draws `light`, float32 (height, width, 4) with row 0 at the bottom, into the own picture."""
-        texture = self.ctx.texture(size, 4, light.astype(np.float16).tobytes(), dtype="f2")
-        self._post.draw(FrameInputs.whole(plan, time, size), texture, self._own_picture(size).frame, (0, 0, *size))
-        texture.release()
+    def _show(self, plan: Plan, time: float, light: moderngl.Texture) -> None:
+        """Draws `light` into the own picture, and gives it back."""
+        self._post.draw(FrameInputs.whole(plan, time, light.size), light, self._own_picture(light.size).frame, (0, 0, *light.size))
+        light.release()
 
     def _still_plan(self, scene: Scene, samples: int) -> Plan:
         made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))
         return self.exposure.of(diagnostics.prepared(made), at_once=True)
 
-    def _summed(self, plan: Plan, time: float, size: tuple[int, int], samples: int, tile: int) -> Generator[float, None, np.ndarray]:
-        """Yields the share done after each ray a pixel of a tile; returns the mean radiance, float32 (height, width, 4), row 0 at the bottom."""
+    def _parts(
+        self, plan: Plan, time: float, size: tuple[int, int], samples: int, tile: int
+    ) -> Iterator[tuple[float, tuple[int, int], np.ndarray | None]]:
+        """Draws one ray a pixel of one tile at a time: the share done, the tile's lower left corner and, when all its rays are there, its mean radiance,
+        float32 (height, width, 4) with row 0 at the bottom."""
         width, height = size
         self._fit_view(plan, size)
-        total = np.zeros((height, width, 4), np.float32)
         tiles = [(x, y) for y in range(0, height, tile) for x in range(0, width, tile)]
-        passes = [(tile, index) for tile in tiles for index in range(samples * samples)]
-        for done, ((x, y), index) in enumerate(passes):
-            shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
+        number = samples * samples
+        for done, (x, y) in enumerate(tiles):
             left, bottom = max(x - _MARGIN, 0), max(y - _MARGIN, 0)
             drawn = min(x + tile + _MARGIN, width) - left, min(y + tile + _MARGIN, height) - bottom
-            inputs = FrameInputs(plan, time, drawn, size, (left + shift[0], bottom + shift[1]))
-            self._trace(inputs)
-            part = _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile]
-            total[y : y + tile, x : x + tile] += part / samples**2
-            yield (done + 1) / len(passes)
-        return total
+            total = np.zeros((min(tile, height - y), min(tile, width - x), 4), np.float32)
+            for index in range(number):
+                shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
+                self._trace(inputs := FrameInputs(plan, time, drawn, size, (left + shift[0], bottom + shift[1])))
+                total += _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile] / number
+                yield (done * number + index + 1) / (len(tiles) * number), (x, y), total if index + 1 == number else None
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
         """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use, wherever the camera looks.
@@ -306,8 +309,9 @@ class Renderer:
         """
         picture = _drawn(self._picture)
         width, height = picture.size
-        data = np.frombuffer(picture.frame.read(components=3, alignment=1), np.uint8)
-        return data.reshape(height, width, 3)[::-1].copy()
+        pixels = np.empty((height, width, 3), np.uint8)
+        picture.frame.read_into(pixels, components=3, alignment=1)
+        return pixels[::-1]
 
     def radiance(self) -> np.ndarray:
         """Scene-referred radiance of the last frame as float32 (height, width, 3), top row first.
