@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from .arguments import Argument, Option
 from .scene import Scene, SceneError
@@ -12,6 +12,8 @@ from .scene import presets as preset_files
 
 if TYPE_CHECKING:
     from .rendering.frame import Renderer
+
+_Number = TypeVar("_Number", int, float)
 
 Named = Annotated[
     list[str] | None,
@@ -89,6 +91,19 @@ def size_of(text: str) -> tuple[int, int]:
     if not all(1 <= side <= 16384 for side in size):
         raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
     return size
+
+
+def numbers_of(text: str, kind: type[_Number], name: str) -> list[_Number]:
+    """The numbers in ``3,5.5``, none in empty text.
+
+    Raises:
+        ValueError: not of that form.
+    """
+    try:
+        return [kind(part) for part in text.split(",")] if text.strip() else []
+    except ValueError:
+        what = "whole numbers" if kind is int else "numbers"
+        raise ValueError(f"{name}: got {text!r}; allowed are {what} with commas between them, e.g. {'0,1' if kind is int else '3,5.5'}") from None
 
 
 def renderer_by(backend: str) -> Renderer:

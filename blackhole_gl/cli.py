@@ -1,4 +1,4 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, trace, profile, polarization, ring, plan, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, video, trace, curve, profile, polarization, ring, plan, bench, check and presets."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ from typing import Annotated, TextIO
 from . import VERSION
 from .arguments import Argument, Option, Program
 from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .films import video
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
-from .research import polarization, profile, ring, trace
+from .research import curve, polarization, profile, ring, trace
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 
 _SUITES = ("frames", "weiskopf")
-_FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux")  # options that no value follows
+_FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux", "--keep-frames")  # options that no value follows
 
 
 def main() -> None:
@@ -272,6 +273,6 @@ PROGRAM = Program(
     "blackhole-gl",
     "Black holes in real time, with an error bar. Without a command: view.",
     VERSION,
-    (view, render, trace, profile, polarization, ring, plan, bench, check, presets),
+    (view, render, video, trace, curve, profile, polarization, ring, plan, bench, check, presets),
 )
 COMMANDS = tuple(command.__name__ for command in PROGRAM.commands)

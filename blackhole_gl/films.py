@@ -6,16 +6,16 @@ import math
 import sys
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
-from . import film
 from .arguments import Option
 from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
 from .output.files import refuse_unwritable
 from .output.progress import Progress
-from .physics import flight
-from .physics.flight import Flight
 from .scene import Scene
+
+if TYPE_CHECKING:
+    from .physics.flight import Flight
 
 _MOST_FRAMES = 1_000_000
 
@@ -33,12 +33,14 @@ def video(
     time: Annotated[float | None, Option(help="Scene time in r_s/c to begin at. When not given: that of a saved picture or scene, or 0.")] = None,
     samples: Annotated[int | None, Option(least=1, most=16, help="Rays a pixel along each axis.", default="as the scene's quality has it")] = None,
     shutter: Annotated[float, Option(least=0.0, most=360.0, help="Angle of the shutter in degrees: 180 gathers light for half of a frame's time.")] = 0.0,
-    codec: Annotated[str | None, Option(help=f"One of {', '.join(film.CODECS)}.", default="what suits the file")] = None,
+    codec: Annotated[str | None, Option(help="One of h264, h265, vp9, av1, prores.", default="what suits the file")] = None,
     frames: Annotated[str | None, Option(metavar="FIRST:END", help="Draw these alone, to share a film out; it is packed when all are there.")] = None,
     keep_frames: Annotated[bool, Option("--keep-frames", help="Leave the frames beside the film.")] = False,
     backend: Backend = "auto",
 ) -> None:
     """Draw a film, every frame at its exact time. Started again after whatever stopped it, it goes on with the first frame that is missing."""
+    from . import film
+
     preset = [*(names or ()), *(preset or ())]
     scene = scene_of(preset, set_, any_file)
     made = film.Film(
@@ -74,7 +76,9 @@ def video(
 
 
 def _flight(scene: Scene, path: Path | None, start: float) -> Flight:
-    return Flight(scene, rate=scene.playback.rate, start=start) if path is None else flight.read(path, scene, start)
+    from .physics import flight
+
+    return flight.Flight(scene, rate=scene.playback.rate, start=start) if path is None else flight.read(path, scene, start)
 
 
 def _fps(text: str) -> Fraction:

@@ -1,4 +1,4 @@
-"""The commands that write numbers in place of a picture: trace, profile, polarization and ring."""
+"""The commands that write numbers in place of a picture: trace, curve, profile, polarization and ring."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated
 
 from .arguments import Option
-from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .asked import AnyFile, Backend, Named, Presets, Settings, numbers_of, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
 
@@ -41,6 +41,27 @@ def trace(
         tell_warnings(scene)
         found = listed_rays.trace_by_shader(renderer_by(backend), scene, listed.rays)
     listed_rays.write(out, found, 17 if float64 else 9, listed)
+
+
+def curve(
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a point. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    radii: Annotated[str, Option(help="Circles of the disk's plane, in r_s, with commas.", default="none")] = "",
+    orders: Annotated[str, Option(help="Their images: 0 direct, 1 first ring, 2 second, and so on, with commas.")] = "0,1",
+    samples: Annotated[int, Option(least=8, most=100_000, help="Points a curve.")] = 512,
+    size: Annotated[str, Option(help="Width × height of the picture that pixels are counted in.")] = "1280x720",
+) -> None:
+    """Write where closed forms put the critical curve, and circles of the disk's plane by each order of image: in M, µas and pixels."""
+    from .measure import curves
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
+    found = curves.measured(scene, numbers_of(radii, float, "--radii"), numbers_of(orders, int, "--orders"), samples)
+    write_whole(out, curves.as_csv(found, scene, size_of(size)).encode())
 
 
 def profile(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import typing
 from fractions import Fraction
 from pathlib import Path
 
@@ -142,3 +143,8 @@ def test_what_cannot_be_is_told_before_anything_is_drawn(values: dict, words: st
         films.video(tmp_path / given.pop("out"), names=["kerr"], **given)
     assert words in str(told.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_help_names_the_codecs_that_there_are() -> None:
+    told = typing.get_type_hints(films.video, include_extras=True)["codec"].__metadata__[0].help
+    assert told == f"One of {', '.join(film.CODECS)}."

@@ -195,22 +195,22 @@ COMMAND = re.compile(r"^(?: {4}|```sh\n)?(?:\.venv/bin/)?(blackhole-gl(?: [^#`\n
 PAGES = (ROOT / "README.md", *(ROOT / "docs").glob("*.md"))
 LINES = sorted({(found[1] or found[2]).strip() for page in PAGES for found in COMMAND.finditer(page.read_text(encoding="utf-8"))})
 # Named in a sentence, as the command that it is, and without what the command needs.
-ONLY_NAMED = ("blackhole-gl render", "blackhole-gl trace", "blackhole-gl trace --float64")
+ONLY_NAMED = ("blackhole-gl render", "blackhole-gl video", "blackhole-gl trace", "blackhole-gl trace --float64")
 
 
 def arguments_of(line: str) -> list[str]:
     return cli._with_command(shlex.split(line)[1:])
 
 
-QUICK_COMMANDS = ("render", "trace", "polarization", "profile", "plan", "presets", "--version")
-LONG_COMMANDS = ("view", "bench", "check")
+QUICK_COMMANDS = ("render", "trace", "curve", "polarization", "profile", "plan", "presets", "--version")
+LONG_COMMANDS = ("view", "bench", "check", "video")
 RUN = [line for line in LINES if line not in ONLY_NAMED and "NAME" not in line]
 QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
 # Those about kinds of the reader's are run by tests/shaders/test_extending.py.
 LONG = [line for line in RUN if arguments_of(line)[0] in LONG_COMMANDS and not re.search("graticule|moon|haze|whirl", line)]
 LOCALES = ("utf-8", "cp1252", "C")
 # Run each time: the others are slow tests.
-SAMPLE = {("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl check", "C"), *zip(QUICK, itertools.cycle(LOCALES))}
+SAMPLE = {("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl video kerr --seconds 4 -o turning.mp4", "cp1252"), ("blackhole-gl check", "C"), *zip(QUICK, itertools.cycle(LOCALES))}
 
 
 def in_all_locales(lines: list[str]) -> list:
@@ -253,10 +253,12 @@ def picture(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.mark.parametrize("line, encoding", in_all_locales(LONG))
 def test_long_command_lines_run_too(tmp_path: Path, picture: Path, line: str, encoding: str) -> None:
-    """Views where there is no display, so that they write a picture; timings of small ones, once each."""
+    """Views where there is no display, so that they write a picture; timings of small ones, once each, and films of a few."""
     for name in re.findall(r"(?<==)\S+\.jpg|\S+\.png", line):
         shutil.copy(picture, tmp_path / name)  # whatever the name says: what a file is, its content tells
     arguments = ["bench", "--size", "32x18", "--rounds", "1", "--no-euler"] if arguments_of(line)[0] == "bench" else shlex.split(line)[1:]
+    if arguments[0] == "video":
+        arguments = [str(ROOT / word) if word.startswith("examples/") else word for word in arguments] + ["--size", "32x18", "--fps", "1", "--seconds", "2"]
     done = run(tmp_path, *arguments, **ENCODINGS[encoding])
     assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
 
