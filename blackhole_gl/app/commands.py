@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from ..scene import fields
-from . import flight
+from . import free_flight
 from .camera_control import Motion, limited, pose_of, within_reach
 from .state import WindowState
 
@@ -105,15 +105,15 @@ def look(state: WindowState, right: float, down: float) -> None:
 
 def fly(state: WindowState, hand: Hand, dt: float) -> None:
     """Flies the camera for `dt` seconds as the hand wants it."""
-    asked = flight.wanted(hand.held, hand.stick)
+    asked = free_flight.wanted(hand.held, hand.stick)
     if state.flight.at_rest and not any(asked):
         return
     if math.isinf(state.scene.camera.distance):
         state.say("A camera infinitely far away cannot be flown: give it a distance.")
         return
     state.flight, way = state.flight.advanced(asked, dt)
-    right, up, forward = (flight.RATE * part for part in way)
-    state.change(flight.flown(state.scene, (right, up, forward)))
+    right, up, forward = (free_flight.RATE * part for part in way)
+    state.change(free_flight.flown(state.scene, (right, up, forward)))
 
 
 def toggle_disk(state: WindowState) -> None:

@@ -10,7 +10,7 @@ from ..scene import Scene, SceneError
 from ..scene.presets import Preset
 from ..scene.schema import Field, Value
 from .camera_control import Motion, clear_of_horizon, pose_of, values_of
-from .flight import Flight
+from .free_flight import FreeFlight
 from .history import History, Moment
 
 NOTICE_SECONDS = 6.0
@@ -68,7 +68,7 @@ class WindowState:
     clock: float = 0.0
     paused: bool = False
     dragging: bool = False
-    flight: Flight = Flight()
+    flight: FreeFlight = FreeFlight()
     holes: dict[bool, Mapping[str, Any]] = field(default_factory=dict)
     show_panel: bool = True
     show_help: bool = False

@@ -210,7 +210,12 @@ QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
 LONG = [line for line in RUN if arguments_of(line)[0] in LONG_COMMANDS and not re.search("graticule|moon|haze|whirl", line)]
 LOCALES = ("utf-8", "cp1252", "C")
 # Run each time: the others are slow tests.
-SAMPLE = {("blackhole-gl --preset kerr --preset draft", "cp1252"), ("blackhole-gl video kerr --seconds 4 -o turning.mp4", "cp1252"), ("blackhole-gl check", "C"), *zip(QUICK, itertools.cycle(LOCALES))}
+SAMPLE = {
+    ("blackhole-gl --preset kerr --preset draft", "cp1252"),
+    ("blackhole-gl video kerr --seconds 4 -o turning.mp4", "cp1252"),
+    ("blackhole-gl check", "C"),
+    *zip(QUICK, itertools.cycle(LOCALES)),
+}
 
 
 def in_all_locales(lines: list[str]) -> list:

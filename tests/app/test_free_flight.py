@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.app import flight
+from blackhole_gl.app import free_flight
 from blackhole_gl.app.commands import Hand, advance
 from blackhole_gl.app.gamepad import of_axes
 from blackhole_gl.app.state import WindowState
@@ -25,13 +25,13 @@ def world(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("look", [(40.0, -20.0, 70.0), (-170.0, 85.0, -130.0), (0.0, 90.0, 30.0), (0.0, -90.0, -60.0), (0.0, 0.0, 0.0)])
 def test_angles_of_a_look_are_found_again(look: tuple[float, float, float]) -> None:
     made = look_rotation(Scene().with_values(dict(zip(("camera.yaw_deg", "camera.pitch_deg", "camera.roll_deg"), look))).camera)
-    np.testing.assert_allclose(flight.look_angles(made), look, atol=1e-6)
+    np.testing.assert_allclose(free_flight.look_angles(made), look, atol=1e-6)
 
 
 @pytest.mark.parametrize("way", [(0.1, 0.0, 0.0), (0.0, 0.2, 0.0), (0.0, 0.0, -0.3), (0.1, -0.2, 0.3)])
 def test_the_camera_goes_along_its_own_axes_and_looks_where_it_looked(way: tuple[float, float, float]) -> None:
     place, (back, down, right) = world(SCENE)
-    after, axes = world(SCENE.with_values(flight.flown(SCENE, way)))
+    after, axes = world(SCENE.with_values(free_flight.flown(SCENE, way)))
     height = SCENE.camera.distance - 0.5 * (1.0 + math.sqrt(1.0 - 0.81))
     np.testing.assert_allclose(after - place, height * (way[0] * right - way[1] * down - way[2] * back), atol=1e-6)
     np.testing.assert_allclose(axes, [back, down, right], atol=1e-7)
@@ -41,7 +41,7 @@ def test_over_the_pole_nothing_turns() -> None:
     scene = Scene().with_values({"camera.inclination_deg": 1.0, "camera.distance": 10.0})
     axes = world(scene)[1]
     for _ in range(20):
-        scene = scene.with_values(flight.flown(scene, (0.0, 0.005, 0.0)))
+        scene = scene.with_values(free_flight.flown(scene, (0.0, 0.005, 0.0)))
         np.testing.assert_allclose(world(scene)[1], axes, atol=1e-5)
     assert abs(scene.camera.azimuth_deg) > 179.0, "it has come over to the other side"
 
@@ -49,7 +49,7 @@ def test_over_the_pole_nothing_turns() -> None:
 def test_a_flight_takes_as_long_however_frames_cut_it() -> None:
     ends = []
     for frames in (1, 30):
-        moved, way = flight.Flight(), np.zeros(3)
+        moved, way = free_flight.FreeFlight(), np.zeros(3)
         for _ in range(frames):
             moved, step = moved.advanced((0.0, 0.0, 1.0), 0.6 / frames)
             way += step
@@ -69,8 +69,8 @@ def test_it_comes_to_rest_above_the_horizon() -> None:
 
 
 def test_keys_together_are_no_faster_than_one() -> None:
-    assert np.linalg.norm(flight.wanted(("fly_forward", "fly_right", "fly_up"), (0.0, 0.0, 1.0))) == pytest.approx(1.0)
-    assert flight.wanted(("fly_forward", "fly_back", "orbit_left")) == (0.0, 0.0, 0.0)
+    assert np.linalg.norm(free_flight.wanted(("fly_forward", "fly_right", "fly_up"), (0.0, 0.0, 1.0))) == pytest.approx(1.0)
+    assert free_flight.wanted(("fly_forward", "fly_back", "orbit_left")) == (0.0, 0.0, 0.0)
 
 
 def test_a_camera_at_infinity_is_told_that_it_cannot_fly() -> None:

@@ -33,7 +33,7 @@ KEYS: Mapping[str, tuple[float, float, float]] = {
 
 
 @dataclass(frozen=True)
-class Flight:
+class FreeFlight:
     """How fast the camera flies right, up and forward, in shares of the full speed."""
 
     speed: tuple[float, float, float] = _STILL
@@ -43,13 +43,13 @@ class Flight:
         """Whether it does not."""
         return self.speed == _STILL
 
-    def advanced(self, wanted: tuple[float, float, float], dt: float) -> tuple[Flight, tuple[float, float, float]]:
+    def advanced(self, wanted: tuple[float, float, float], dt: float) -> tuple[FreeFlight, tuple[float, float, float]]:
         """After `dt` seconds in which the hand wants `wanted`, and the way gone meanwhile, in full speeds times seconds: the closed solution of a lag."""
         left = math.exp(-dt / _EASE_S)
         way = [aim * dt + (had - aim) * _EASE_S * (1.0 - left) for aim, had in zip(wanted, self.speed)]
         speed = [aim + (had - aim) * left for aim, had in zip(wanted, self.speed)]
         stands = wanted == _STILL and max(map(abs, speed)) < _REST
-        return Flight(_STILL if stands else (speed[0], speed[1], speed[2])), (way[0], way[1], way[2])
+        return FreeFlight(_STILL if stands else (speed[0], speed[1], speed[2])), (way[0], way[1], way[2])
 
 
 def wanted(held: Collection[str], stick: tuple[float, float, float] = _STILL) -> tuple[float, float, float]:
