@@ -24,6 +24,7 @@ _BUTTONS = (
     ("values", "Values"),
     ("paths", "Paths of light"),
     ("sides", "Side by side"),
+    ("timeline", "Flight"),
     ("search", "Search …"),
     ("help", "Help"),
     ("full_screen", "Full screen"),

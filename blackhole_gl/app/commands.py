@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from ..scene import fields
-from . import free_flight
+from . import free_flight, timeline
 from .camera_control import Motion, limited, pose_of, within_reach
 from .state import WindowState
 
@@ -72,6 +72,8 @@ def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> No
         turn, tilt, go = _HELD[name]
         azimuth, inclination, reach = azimuth + turn * dt, inclination + tilt * dt, reach + go * dt
     target = state.motion.target
+    if azimuth or inclination or reach or any(hand.look):
+        state.timeline = replace(state.timeline, plays=False)  # the hand takes over
     if azimuth or inclination or reach:
         wanted = target.moved(azimuth, inclination, reach)
         target = within_reach(wanted, state.scene, target)
@@ -81,7 +83,9 @@ def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> No
     if any(hand.look):
         look(state, *hand.look)
     fly(state, hand, dt)
-    if state.is_playing:
+    if state.timeline.plays:
+        timeline.advance(state, dt)
+    elif state.is_playing:
         state.time += dt * state.scene.playback.rate
     state.clock += slept + dt
     if state.notice and state.notice.until is not None and state.clock > state.notice.until:
@@ -222,4 +226,5 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "line": flip("show_line"),
     "paths": flip("show_paths"),
     "sides": flip("show_sides"),
+    "timeline": flip("show_timeline"),
 }

@@ -96,6 +96,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("line", ("B",), "Show or hide the profile of a line that the disk emits, of each order of image"),
     Action("paths", ("G",), "Show or hide the path view: a click on the picture shows that ray in space, step by step"),
     Action("sides", ("D",), "Divide the picture or not: another method or preset on the right, with the error and cost of both"),
+    Action("timeline", ("T",), "Show or hide the flight: open one, play and scrub it, take keys from the view"),
     Action("save", ("CTRL+S",), "Save the scene"),
     Action("save_as", ("CTRL+SHIFT+S",), "Save the scene where you choose"),
     Action("open", ("CTRL+O",), "Open a scene or a picture that was saved here"),

@@ -12,6 +12,7 @@ from ..scene.schema import Field, Value
 from .camera_control import Motion, clear_of_horizon, pose_of, values_of
 from .free_flight import FreeFlight
 from .history import History, Moment
+from .timeline import Timeline
 
 NOTICE_SECONDS = 6.0
 MOST_TOLD = 5
@@ -42,7 +43,7 @@ class WindowState:
     Attributes:
         scene: the scene shown now.
         home: the scene as the presets in force or the opened file have it, which resets go back to.
-        motion: the camera on its way. flight: how it flies.
+        motion: the camera on its way. flight: how it flies by hand. timeline: the flight that it follows.
         chosen: preset group → name of the preset in force.
         history: what can be undone and redone.
         time: scene time in r_s/c.
@@ -69,6 +70,7 @@ class WindowState:
     paused: bool = False
     dragging: bool = False
     flight: FreeFlight = FreeFlight()
+    timeline: Timeline = Timeline()
     holes: dict[bool, Mapping[str, Any]] = field(default_factory=dict)
     show_panel: bool = True
     show_help: bool = False
@@ -78,6 +80,7 @@ class WindowState:
     show_values: bool = False
     show_paths: bool = False
     show_sides: bool = False
+    show_timeline: bool = False
     show_search: bool = False
     show_picture_window: bool = False
     panel_keys: bool = False
@@ -204,7 +207,7 @@ class WindowState:
     @property
     def camera_moves(self) -> bool:
         """Whether the camera is on its way or under the hand."""
-        return self.dragging or not (self.motion.at_rest and self.flight.at_rest)
+        return self.dragging or self.timeline.plays or not (self.motion.at_rest and self.flight.at_rest)
 
     @property
     def is_moving(self) -> bool:

@@ -32,6 +32,7 @@ from . import (
     scene_files,
     search_window,
     shader_watch,
+    timeline_window,
     view_scale,
     window_settings,
 )
@@ -267,7 +268,7 @@ class Window:
         hand = commands.Hand(*ways, held, sticks.fly).turned(sticks.look, dt)
         state.dragging = self._mouse.drags
         commands.advance(state, hand, dt, passed - dt)
-        if not self._gesture.lasts(hand, state.clock):
+        if not (state.timeline.plays or self._gesture.lasts(hand, state.clock)):
             state.record()
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
@@ -288,6 +289,7 @@ class Window:
         help_window.draw(state, self.bindings, self.key_file)
         self.live_chart.draw(state)
         self.line_plot.draw(state)
+        timeline_window.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
         self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height), foot)
 

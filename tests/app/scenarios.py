@@ -723,6 +723,22 @@ def path_view(hands: Hands) -> None:
     assert not hands.state.show_paths and len(paths.shown) == 1 and not hands.state.render_error
 
 
+def flight_in_the_window(hands: Hands) -> None:
+    """T opens it. Two keys are taken from the view, and it is played: the camera goes from one to the other, as one step that can be undone."""
+    hands.press(Key.t)
+    hands.context.item_click("//Flight/Take a key###flight key")
+    hands.state.change({"camera.distance": 9.0})
+    hands.state.timeline = replace(hands.state.timeline, seconds=0.4)
+    hands.context.item_click("//Flight/Take a key###flight key")
+    hands.context.item_click("//Flight/Play###flight play")
+    wait(hands, lambda: hands.state.timeline.seconds > 0.1 and not hands.state.timeline.plays, seconds=20.0)
+    assert hands.scene.camera.distance == 9.0 and len(hands.state.timeline.flight.keys) == 2
+    hands.context.item_click("//Flight/Save###flight save")
+    assert hands.state.notice.text.startswith("Saved: ")
+    hands.press(Key.t)
+    assert not hands.state.show_timeline
+
+
 def side_by_side(hands: Hands) -> None:
     """D divides the picture. Both sides follow the camera, each keeps its hits, and the divider is dragged without tracing anything."""
     hands.press(Key.p)
