@@ -28,9 +28,9 @@ def opened(state: WindowState, folder: Path, text: str = PATH) -> WindowState:
     return state
 
 
-def run(state: WindowState, seconds: float, hand: Hand = Hand()) -> None:
+def run(state: WindowState, seconds: float) -> None:
     for _ in range(round(seconds / 0.05)):
-        advance(state, hand, 0.05)
+        advance(state, Hand(), 0.05)
 
 
 def test_it_plays_to_its_end_and_again_from_the_start(state: WindowState, tmp_path: Path) -> None:
