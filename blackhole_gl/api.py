@@ -21,11 +21,11 @@ from typing import Any, SupportsIndex
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import listed_rays
+from . import layers, listed_rays
 from .gl_thread import GlThread
 from .glsl.declared import Fate
 from .output import png
-from .physics import observer, screen_curves
+from .physics import screen_curves
 from .physics.screen_curves import ScreenCurve
 from .planning import Plan
 from .planning import plan as make_plan
@@ -105,7 +105,7 @@ class Renderer:
 
     def hits(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
         """As the function `hits`."""
-        return self._traced(scene, _pixel_rays(scene, _size(size)))
+        return self._traced(scene, listed_rays.pixel_rays(scene, _size(size)))
 
     def close(self) -> None:
         """Gives back all that it holds; it cannot be used any more."""
@@ -213,18 +213,23 @@ def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples
 
 
 def save(path: str | Path, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> Path:
-    """Writes a ``.png`` of `scene`, which carries it, or a ``.toml`` preset of it; both `load` and the viewer open again. Returns the path.
+    """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
+    ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g.
 
     Raises:
-        ValueError: another suffix; as in `render`.
+        ValueError: another suffix, or one whose library is not there; as in `render`.
         OSError: it cannot be written.
     """
     path = Path(path)
-    if path.suffix.lower() == ".toml":
+    suffix = path.suffix.lower()
+    if suffix == ".toml":
         return preset_files.save(scene, path, time=time or None)
-    if path.suffix.lower() != ".png":
-        raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is .png, a picture, or .toml, a preset")
-    png.write(path, render(scene, size, time, samples), preset_files.picture_text(scene, float(time), path.absolute().parent))
+    if suffix in layers.SUFFIXES:
+        layers.write(path, _shared._thread.call(layers.measured, *_asked(scene, size, time, samples)), scene, float(time))
+    elif suffix == ".png":
+        png.write(path, render(scene, size, time, samples), preset_files.picture_text(scene, float(time), path.absolute().parent))
+    else:
+        raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is .png, .toml, {', '.join(layers.SUFFIXES)}")
     return path
 
 
@@ -311,20 +316,6 @@ def _coordinates(
     if wanted == listed_rays.ANGLES and ((first < 0.0) | (first > math.nextafter(math.pi, 4.0))).any():
         raise ValueError("psi: allowed is 0 to π radians, from the direction to the hole's centre")
     return first, second
-
-
-def _pixel_rays(scene: Scene, size: tuple[int, int]) -> Float[np.ndarray, "height width 2"]:
-    """The coordinates of the rays through the middles of the pixels of a picture of `size`."""
-    width, height = size
-    camera = scene.camera
-    far = math.isinf(camera.distance)
-    half_height = 0.5 * camera.field_m if far else math.tan(math.radians(0.5 * camera.fov_deg))
-    right = (2.0 * np.arange(width) + 1.0 - width) * half_height / height
-    up = (height - 1.0 - 2.0 * np.arange(height)) * half_height / height
-    seen = np.stack(np.broadcast_arrays(-1.0, -up[:, None], right), axis=-1) @ observer.look_rotation(camera).T
-    if far:
-        return np.stack([seen[..., 2], -seen[..., 1]], axis=-1)
-    return np.stack(observer.screen_angles(seen), axis=-1)
 
 
 def _as_rays(found: listed_rays.TracedRays) -> Rays:

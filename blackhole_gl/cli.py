@@ -104,7 +104,7 @@ def view(
 
 def render(
     out: Annotated[
-        Path | None, Option("--out", "-o", help="The PNG to write. It carries its whole scene. - is standard output.")
+        Path | None, Option("--out", "-o", help="The PNG to write, with its scene inside; - is standard output. Or .exr, .fits, .npz: radiance with layers.")
     ] = None,
     names: Named = None,
     preset: Presets = None,
@@ -124,7 +124,7 @@ def render(
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
-        refuse_unwritable(out, (".png",), "a PNG picture")
+        refuse_unwritable(out, (".png", ".exr", ".fits", ".npz"), "a PNG picture, or layers")
     refuse_unmet(scene, set_)
     if out is not None:
         _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend)
@@ -250,6 +250,9 @@ def _last_scene() -> tuple[Scene, float] | None:
 
 
 def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
+    if out.suffix.lower() in (".exr", ".fits", ".npz"):
+        _render_layers(scene, size, time, out, samples, backend)
+        return
     from .output import png
     from .rendering.annotation import annotated
 
@@ -259,6 +262,13 @@ def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples
         renderer.render_still(scene, time, size, samples, progress)
     pixels = annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
     png.write(out, pixels, preset_files.picture_text(scene, time, out.absolute().parent))
+
+
+def _render_layers(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
+    from . import layers
+
+    tell_warnings(scene)
+    layers.write(out, layers.measured(renderer_by(backend), scene, time, size, samples), scene, time)
 
 
 def _print_flux(scene: Scene, size: tuple[int, int], time: float, backend: str, file: TextIO) -> None:

@@ -142,6 +142,20 @@ def local_vectors(rays: Float[np.ndarray, "N 2"], scene: Scene) -> Float[np.ndar
     return (observer.parallel_rays if columns(scene) == SCREEN else observer.local_directions)(rays[:, 0], rays[:, 1])
 
 
+def pixel_rays(scene: Scene, size: tuple[int, int]) -> Float[np.ndarray, "height width 2"]:
+    """The rays through the middles of the pixels of a picture of `size`, top row first, (height, width, 2) as `read` gives them."""
+    width, height = size
+    camera = scene.camera
+    far = columns(scene) == SCREEN
+    half_height = 0.5 * camera.field_m if far else math.tan(math.radians(0.5 * camera.fov_deg))
+    right = (2.0 * np.arange(width) + 1.0 - width) * half_height / height
+    up = (height - 1.0 - 2.0 * np.arange(height)) * half_height / height
+    seen = np.stack(np.broadcast_arrays(-1.0, -up[:, None], right), axis=-1) @ observer.look_rotation(camera).T
+    if far:
+        return np.stack([seen[..., 2], -seen[..., 1]], axis=-1)
+    return np.stack(observer.screen_angles(seen), axis=-1)
+
+
 def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRays:
     """`rays` (N, 2) through the shader that pictures use."""
     if len(rays) == 0:

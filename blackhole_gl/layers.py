@@ -1,0 +1,139 @@
+"""Pictures for compositing and for research: linear radiance, and what the ray through each pixel's middle meets, as OpenEXR, FITS or a NumPy archive."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import listed_rays
+from .output.files import write_whole
+from .physics import angular_size
+from .planning import plan
+from .rendering.frame import Renderer
+from .scene import Scene, presets
+from .shapes import Float, Int
+
+SUFFIXES = (".exr", ".fits", ".npz")
+_RAYS_AT_ONCE = 1 << 18
+_KEY = "blackhole_gl.scene"
+
+
+class LayersError(ValueError):
+    """Layers that cannot be written; the text says what is missing or allowed."""
+
+
+@dataclass(frozen=True)
+class Layers:
+    """Arrays of a picture, its top row first; of the disk's light the first crossing that the disk shows, NaN where it shows none.
+
+    Attributes:
+        radiance: linear, before exposure and tone map, float32 (height, width, 3).
+        fate: of the ray, a `Fate`.
+        order: of the crossing: 0 direct, 1 first ring, 2 second ring; −1 without.
+        r, phi: of the crossing, in r_s and radians.
+        g: E_infinity/E_emitter of the matter there.
+    """
+
+    radiance: Float[np.ndarray, "height width 3"]
+    fate: Int[np.ndarray, "height width"]
+    order: Int[np.ndarray, "height width"]
+    r: Float[np.ndarray, "height width"]
+    phi: Float[np.ndarray, "height width"]
+    g: Float[np.ndarray, "height width"]
+
+
+def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> Layers:
+    """The layers of `scene` at scene time `time` (r_s/c); `samples` rays a pixel along each axis are averaged in the radiance alone.
+
+    Raises:
+        SceneError, ValueError: the scene cannot be drawn.
+    """
+    light = renderer.still_radiance(scene, time, size, samples)
+    listed = listed_rays.pixel_rays(scene, size).reshape(-1, 2)
+    found = [listed_rays.trace_by_shader(renderer, scene, listed[first : first + _RAYS_AT_ONCE]) for first in range(0, len(listed), _RAYS_AT_ONCE)]
+    fate, r, phi, g = (np.concatenate([getattr(part, name) for part in found]) for name in ("fate", "crossing_r", "crossing_phi", "crossing_g"))
+    made = plan(scene)
+    with np.errstate(invalid="ignore"):
+        shows = (r >= made.disk_edge) & (r <= made.disk_outer) & scene.disk.enabled
+    shows &= np.arange(r.shape[1]) < made.orders
+    order = np.where(shows.any(axis=1), np.argmax(shows, axis=1), -1)
+    first = [np.where(order < 0, np.nan, np.take_along_axis(values, np.maximum(order, 0)[:, None], 1)[:, 0]).astype(np.float32) for values in (r, phi, g)]
+    shape = size[1], size[0]
+    return Layers(light, *(values.reshape(shape) for values in (fate.astype(np.int32), order.astype(np.int32), *first)))
+
+
+def write(path: Path, layers: Layers, scene: Scene, time: float) -> None:
+    """Writes `layers` to `path`, whole or not at all, by its suffix, one of `SUFFIXES`, with the scene inside.
+
+    Raises:
+        LayersError: the library that the format needs is not there.
+        OSError: it cannot be written.
+    """
+    text = presets.picture_text(scene, time, path.absolute().parent)
+    write_whole(path, {".exr": _exr, ".fits": _fits, ".npz": _npz}[path.suffix.lower()](layers, scene, text))
+
+
+def _exr(layers: Layers, scene: Scene, text: str) -> bytes:
+    """Red, green, blue as compositors expect them, and a layer for each of the others; floats throughout, without loss."""
+    openexr = _library("OpenEXR", "openexr", "exr")
+    import tempfile  # the library writes to files alone
+
+    channels: dict[str, Any] = {"RGB": np.ascontiguousarray(layers.radiance)}
+    channels |= {f"{name}.V": values.astype(np.float32) for name, values in _beside(layers).items()}
+    header = {"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage, _KEY: text}
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "layers.exr"
+        with openexr.File(header, channels) as made:
+            made.write(str(file))
+        return file.read_bytes()
+
+
+def _fits(layers: Layers, scene: Scene, text: str) -> bytes:
+    """Radiance as a cube of three planes and an image extension for each other layer, bottom row first as FITS has it; degrees on the sky where the scene
+    stands for a real object or is seen through a beam, else M."""
+    fits = _library("astropy.io.fits", "astropy", "fits")
+    hdus = [fits.PrimaryHDU(np.moveaxis(layers.radiance[::-1], -1, 0).copy())]
+    hdus += [fits.ImageHDU(values[::-1].copy(), name=name.upper()) for name, values in _beside(layers).items()]
+    for hdu in hdus:
+        hdu.header.update(_world(scene, layers.radiance.shape[0], layers.radiance.shape[1]))
+    hdus[0].header["BUNIT"] = ("", "linear radiance, arbitrary units; planes are red, green, blue")
+    scene_hdu = fits.ImageHDU(np.frombuffer(text.encode(), np.uint8), name="SCENE")  # UTF-8, which no card of a header may be
+    stream = io.BytesIO()
+    fits.HDUList([*hdus, scene_hdu]).writeto(stream)
+    return stream.getvalue()
+
+
+def _npz(layers: Layers, scene: Scene, text: str) -> bytes:
+    stream = io.BytesIO()
+    kept: dict[str, Any] = {"radiance": layers.radiance, **_beside(layers), "scene": np.array(text)}
+    np.savez_compressed(stream, **kept)
+    return stream.getvalue()
+
+
+def _beside(layers: Layers) -> dict[str, np.ndarray]:
+    """All but the radiance, by name."""
+    return {item.name: getattr(layers, item.name) for item in fields(Layers) if item.name != "radiance"}
+
+
+def _world(scene: Scene, height: int, width: int) -> dict[str, Any]:
+    """Where pixels are about the picture's middle: north up, and east to the left on the sky, as astronomers draw it."""
+    about = {"CRPIX1": 0.5 * (width + 1), "CRPIX2": 0.5 * (height + 1), "CRVAL1": 0.0, "CRVAL2": 0.0}
+    if angular_size.is_told(scene):
+        step = math.degrees(angular_size.picture_height_uas(scene.camera, scene.source) * angular_size.MICROARCSECOND) / height
+        return {**about, "CTYPE1": "RA---TAN", "CTYPE2": "DEC--TAN", "CUNIT1": "deg", "CUNIT2": "deg", "CDELT1": -step, "CDELT2": step}
+    step = angular_size.picture_height_m(scene.camera) / height
+    return {**about, "CTYPE1": "ALPHA", "CTYPE2": "BETA", "CUNIT1": "", "CUNIT2": "", "CDELT1": step, "CDELT2": step}
+
+
+def _library(module: str, package: str, extra: str) -> Any:
+    import importlib
+
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        raise LayersError(f"a .{extra} file needs the package {package}: pip install 'blackhole-gl[{extra}]'; .npz needs none") from None
