@@ -160,12 +160,7 @@ def draw(film: Film, folder: Path, numbers: Iterable[int], renderer: Renderer, p
     waiting: list[Future[None]] = []
     with ThreadPoolExecutor(1) as writer:
         for done, number in enumerate(wanted):
-            moments = film.moments(number)
-            shown = moments[len(moments) // 2]
-            renderer.render_mean([(moment.scene, moment.time) for moment in moments], film.size, film.samples)
-            pixels = annotated(renderer.read_rgb8(), shown.scene, renderer.view_of(shown.scene))
-            text = presets.picture_text(shown.scene, shown.time, folder.absolute())
-            waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text))
+            waiting.append(writer.submit(png.write, frame_path(folder, number), *frame(renderer, film, number, folder)))
             while len(waiting) > _WAITING:
                 waiting.pop(0).result()
             if progress is not None:
@@ -173,6 +168,19 @@ def draw(film: Film, folder: Path, numbers: Iterable[int], renderer: Renderer, p
         for written in waiting:
             written.result()
     return len(wanted)
+
+
+def frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np.ndarray, str]:
+    """The pixels of frame `number`, uint8 (height, width, 3), and the scene that its picture in `folder` carries, as TOML.
+
+    Raises:
+        SceneError, ValueError: it cannot be drawn.
+    """
+    moments = film.moments(number)
+    shown = moments[len(moments) // 2]
+    renderer.render_mean([(moment.scene, moment.time) for moment in moments], film.size, film.samples)
+    pixels = annotated(renderer.read_rgb8(), shown.scene, renderer.view_of(shown.scene))
+    return pixels, presets.picture_text(shown.scene, shown.time, folder.absolute())
 
 
 def encoders() -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 from fractions import Fraction
 from pathlib import Path
@@ -34,7 +35,8 @@ def video(
     samples: Annotated[int | None, Option(least=1, most=16, help="Rays a pixel along each axis.", default="as the scene's quality has it")] = None,
     shutter: Annotated[float, Option(least=0.0, most=360.0, help="Angle of the shutter in degrees: 180 gathers light for half of a frame's time.")] = 0.0,
     codec: Annotated[str | None, Option(help="One of h264, h265, vp9, av1, prores.", default="what suits the file")] = None,
-    frames: Annotated[str | None, Option(metavar="FIRST:END", help="Draw these alone, to share a film out; it is packed when all are there.")] = None,
+    frames: Annotated[str | None, Option(metavar="FIRST:END", help="Draw these alone, or slurm: this job's share; it is packed when all are there.")] = None,
+    dask: Annotated[str | None, Option(metavar="ADDRESS", help="Have the cluster draw them whose scheduler is there, tcp://….", default="none")] = None,
     keep_frames: Annotated[bool, Option("--keep-frames", help="Leave the frames beside the film.")] = False,
     backend: Backend = "auto",
 ) -> None:
@@ -65,7 +67,12 @@ def video(
     if there:
         print(f"{there} of {len(wanted)} frames are there", file=sys.stderr)
     with Progress("drawing") as progress:
-        film.draw(made, folder, wanted, renderer_by(backend), progress)
+        if dask is not None:
+            from . import film_cluster
+
+            film_cluster.draw(made, folder, wanted, dask, progress)
+        else:
+            film.draw(made, folder, wanted, renderer_by(backend), progress)
     left = len(film.missing(made, folder, range(made.count)))
     if packing is None or left:
         print(f"{made.count - left} of {made.count} frames in {folder}", file=sys.stderr)
@@ -103,7 +110,9 @@ def _count(flown: Flight, fps: Fraction, seconds: float | None) -> int:
 
 
 def _share(text: str, count: int) -> range:
-    """The frames ``120:240``, the last not among them; ``120:`` and ``:240`` begin and end with the film."""
+    """The frames ``120:240``, the last not among them; ``120:`` and ``:240`` begin and end with the film; ``slurm``: one of equal shares of a job array."""
+    if text == "slurm":
+        return _slurm_share(count)
     first, colon, end = text.partition(":")
     try:
         found = range(int(first or 0), min(int(end or count), count))
@@ -112,3 +121,12 @@ def _share(text: str, count: int) -> range:
     if not colon or not found or found.start < 0:
         raise ValueError(f"--frames: got {text!r}; allowed is FIRST:END within 0:{count}, e.g. 0:{max(count // 2, 1)}")
     return found
+
+
+def _slurm_share(count: int) -> range:
+    try:
+        index, first, number = (int(os.environ[f"SLURM_ARRAY_TASK_{name}"]) for name in ("ID", "MIN", "COUNT"))
+    except (KeyError, ValueError):
+        raise ValueError("--frames: slurm is allowed within a job array, whose variables SLURM_ARRAY_TASK_ID, _MIN and _COUNT are not set here") from None
+    share = index - first
+    return range(share * count // number, (share + 1) * count // number)

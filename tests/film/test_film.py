@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import pickle
+import subprocess
+import sys
 import typing
 from fractions import Fraction
 from pathlib import Path
@@ -10,12 +14,13 @@ import av
 import numpy as np
 import pytest
 
-from blackhole_gl import film, films
+from blackhole_gl import film, film_cluster, films
 from blackhole_gl.output import png
 from blackhole_gl.physics import flight
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
+ROOT = Path(__file__).resolve().parents[2]
 SIZE = (64, 36)
 PATH = "rate = 4.0\n[[keys]]\nat = 0\ncamera.azimuth_deg = 0.0\n[[keys]]\nat = 1\ncamera.azimuth_deg = 60.0\n"
 
@@ -119,6 +124,60 @@ def test_the_command_shares_out_frames_and_packs_when_all_are_there(renderer: Re
         assert sum(1 for _ in container.decode(video=0)) == 5, "the flight's last moment is on the last frame"
     films.video(tmp_path / "pictures", names=["kerr"], fps="5", seconds=0.4, size="32x18")
     assert sorted(path.name for path in (tmp_path / "pictures").glob("*.png")) == ["frame_000000.png", "frame_000001.png"]
+
+
+def test_a_job_array_shares_out_all_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    shares = []
+    for index in range(2, 9):
+        for name, value in (("ID", index), ("MIN", 2), ("COUNT", 7)):
+            monkeypatch.setenv(f"SLURM_ARRAY_TASK_{name}", str(value))
+        shares += films._share("slurm", 100)
+    assert shares == list(range(100))
+    monkeypatch.delenv("SLURM_ARRAY_TASK_ID")
+    with pytest.raises(ValueError, match="allowed within a job array"):
+        films._share("slurm", 100)
+
+
+@pytest.mark.slow
+def test_a_cluster_draws_the_same_frames_though_a_worker_dies(made: film.Film, drawn: Path, tmp_path: Path) -> None:
+    """Two workers, processes of their own; one is killed when the first frame is there."""
+    program = """
+import os, pickle, signal, sys
+from pathlib import Path
+from distributed import LocalCluster
+from blackhole_gl import film, film_cluster
+
+if __name__ == "__main__":
+    made, folder = pickle.loads(Path(sys.argv[1]).read_bytes()), Path(sys.argv[2])
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        victim = list(cluster.workers.values())[0].pid
+        killed = []
+
+        def kill(share):
+            if not killed:
+                killed.append(os.kill(victim, signal.SIGKILL))
+
+        assert film_cluster.draw(made, folder, range(made.count), cluster.scheduler_address, kill) == made.count and killed
+"""
+    (tmp_path / "run.py").write_text(program, encoding="utf-8")
+    (tmp_path / "film").write_bytes(pickle.dumps(made))
+    folder = tmp_path / "frames"
+    film.begin(made, folder)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "LP_NUM_THREADS": "1"}
+    run = subprocess.run([sys.executable, tmp_path / "run.py", tmp_path / "film", folder], env=environment, capture_output=True, text=True, timeout=280)
+    assert run.returncode == 0, run.stderr
+    for number in range(made.count):
+        assert np.array_equal(png.read(film.frame_path(folder, number)), png.read(film.frame_path(drawn, number)))
+
+
+def test_a_cluster_that_is_not_there_is_told(made: film.Film, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import dask
+
+    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}), pytest.raises(film.FilmError, match="--dask: got 'tcp://127.0.0.1:9'"):
+        film_cluster.draw(made, tmp_path, range(1), "tcp://127.0.0.1:9")
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(film.FilmError, match=r"pip install 'blackhole-gl\[cluster\]'"):
+        film_cluster.draw(made, tmp_path, range(1), "tcp://127.0.0.1:9")
 
 
 WRONG = (

@@ -26,6 +26,7 @@ LAYERS = (
     {"film", "layers", "self_check"},
     {"api"},
     {"asked"},
+    {"film_cluster"},
     {"films", "research"},
     {"cli"},
     {"__main__"},
