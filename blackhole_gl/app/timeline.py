@@ -153,7 +153,6 @@ def reading(moment: Moment | None) -> str:
     if moment is None or math.isnan(moment.proper_time):
         return ""
     far = f"{moment.far_time:.2f}" if math.isfinite(moment.far_time) else "no more"
-    return (
-        f"own clock {moment.proper_time:.2f}, far away {far} r_s/c; r = {moment.scene.camera.distance:.4g} r_s, "
-        f"{'falls' if moment.scene.camera.observer == 'rain' else 'moves'} at {moment.speed:.3f} c"
-    )
+    goes = "falls" if moment.scene.camera.observer == "rain" else "moves"
+    speed = f"{goes} at {moment.speed:.3f} c" if moment.speed < 1.0 else "nothing stands still here"
+    return f"own clock {moment.proper_time:.2f}, far away {far} r_s/c; r = {moment.scene.camera.distance:.4g} r_s, {speed}"

@@ -83,7 +83,8 @@ def test_a_fall_reads_its_clocks_and_goes_through_the_horizon(state: WindowState
     told = timeline.reading(state.timeline.moment)
     assert told.startswith("own clock 1.00, far away 1.") and "falls at 0.5" in told
     timeline.seek(state, state.timeline.length)
-    assert state.scene.camera.distance < 0.2 and "far away no more" in timeline.reading(state.timeline.moment)
+    told = timeline.reading(state.timeline.moment)
+    assert state.scene.camera.distance < 0.2 and "far away no more" in told and told.endswith("nothing stands still here")
     timeline.save(state, str(tmp_path / "never.toml"))
     assert state.notice.text == "There are no keys to save." and not (tmp_path / "never.toml").exists()
 
