@@ -36,7 +36,7 @@ def shifts(ctx, tmp_path):
         path = tmp_path / "shift.frag"
         path.write_text(
             "#version 330 core\n#defines\n#blocks\n#include \"common/disk_orbit.glsl\"\n"
-            "#define LIGHT DiskLight(c.y, c.z, 1.0)\nuniform sampler2D cases;\nout vec4 o;\n"
+            "#define LIGHT DiskLight(c.y, c.z, vec2(1.0))\nuniform sampler2D cases;\nout vec4 o;\n"
             f"void main() {{ vec4 c = texelFetch(cases, ivec2(gl_FragCoord.xy), 0); o = vec4({function}, 0.0, 0.0); }}\n"
         )
         piece = Piece(ctx, path, switches=switches, hole_spin=spin, disk_spin_sign=sense, hole_spin_complement=1.0 - abs(spin), **uniforms)

@@ -36,7 +36,7 @@ def test_g_is_the_twins_at_five_radii(ctx, tmp_path, spin: float, orbit: str, sh
     path = tmp_path / "shift.frag"
     path.write_text(
         "#version 330 core\n#defines\n#blocks\n#include \"common/disk_orbit.glsl\"\nuniform sampler2D cases;\nout vec4 o;\n"
-        "void main() { vec4 c = texelFetch(cases, ivec2(gl_FragCoord.xy), 0); o = vec4(disk_g(c.x, DiskLight(c.y, c.z, 1.0), c.w > 0.5)); }\n"
+        "void main() { vec4 c = texelFetch(cases, ivec2(gl_FragCoord.xy), 0); o = vec4(disk_g(c.x, DiskLight(c.y, c.z, vec2(1.0)), c.w > 0.5)); }\n"
     )
     root = math.sqrt((1.0 - spin) * (1.0 + spin))
     piece = Piece(
