@@ -21,7 +21,7 @@ from .inputs import FrameInputs
 from .metering import Exposure
 from .pixel_values import PixelValues
 from .post import PostPass, keeps_stars
-from .programs import Programs
+from .programs import Programs, chosen
 from .shading import ShadePass
 from .star_layer import StarLayer
 from .tables import Tables
@@ -392,7 +392,8 @@ class Renderer:
         return _drawn(self._radiance)
 
     def _light_key(self, inputs: FrameInputs, coarse: CoarseMedia | None, moving: bool) -> tuple | None:
-        own = self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, self._tables.pictures.made
+        files = self._tables.pictures.stamps(chosen(inputs.plan, "sky", "disk_layer", "ray_model"), inputs.plan.scene)
+        own = self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, files
         key = kept_light.key(inputs, *own)
         media = kept_light.key(coarse.inputs, coarse.step) if coarse is not None else ()
         return None if key is None or media is None else (key, media)

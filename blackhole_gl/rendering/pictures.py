@@ -108,6 +108,17 @@ class Pictures:
             self._array = stamps, filled
         return {ARRAY: self._array[1]}
 
+    @staticmethod
+    def stamps(plug_ins: Iterable[PlugIn], scene: Scene) -> tuple[Stamp, ...]:
+        """What tells the files of all these pictures, as they are now, from what they were and will be.
+
+        Raises:
+            SceneError: one is not there.
+        """
+        single = [(item, scene.get(item.key)) for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item) or is_panorama(item)]
+        own = [(panorama_files if is_panorama(item) else picture_files).stamp(item.key, value) for item, value in single if isinstance(value, str) and value]
+        return (*own, *(picture_files.stamp(key, value) for key, value in _named(scene)))
+
     def release(self) -> None:
         """Gives the GL objects back."""
         for _, texture in self._single.values():

@@ -68,7 +68,8 @@ def main() -> None:
     for frame in range(1, frames + 1):
         turn = frame // FRAMES_A_SCENE
         scene = scenes[turn % len(scenes)].with_values({"camera.azimuth_deg": frame % 360, "camera.inclination_deg": 20.0 + frame % 130})
-        renderer.render(scene, 0.1 * frame, SIZES[turn // 3 % len(SIZES)], progressive=frame % 2 == 0)
+        size = SIZES[turn % len(scenes) % len(SIZES)]  # the same in every round: a larger picture has more levels of bloom
+        renderer.render(scene, 0.1 * frame, size, progressive=frame % 2 == 0)
         if frame % max(frames // 10, 1) == 0:
             print(json.dumps({"frames": frame, "mb": round(resident_mb(), 1), **census.count()}), flush=True)
 

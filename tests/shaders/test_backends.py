@@ -103,10 +103,11 @@ def test_an_unknown_backend_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_without_any_library_the_error_has_the_line_that_installs_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    def missing():
+    def missing(*_):
         raise RuntimeError("libEGL.so.1 not found")
 
-    monkeypatch.setattr(context, "_MAKERS", {name: missing for name in context.BACKENDS})
+    for maker in ("_egl", "_osmesa"):
+        monkeypatch.setattr(context, maker, missing)
     monkeypatch.delenv(context.ENVIRONMENT, raising=False)
     with pytest.raises(context.ContextError) as caught:
         context.create_headless("auto")

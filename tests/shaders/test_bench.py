@@ -28,7 +28,7 @@ def test_still_frames_keep_the_hit_map_and_moving_ones_trace(renderer: Renderer)
 def test_the_command_prints_a_table_and_writes_json(
     tmp_path: Path, renderer: Renderer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(cli, "_renderer", lambda backend: renderer)  # a second context would take the place of the tests' own
+    monkeypatch.setattr(cli, "renderer_by", lambda backend: renderer)  # a second context would take the place of the tests' own
     out = tmp_path / "bench.json"
     cli.run(["bench", "--size", "32x18", "--rounds", "1", "--no-euler", "--json", str(out)])
     said = capsys.readouterr().out

@@ -96,7 +96,7 @@ out vec4 o;
 vec4 given(int k) { return texelFetch(cases, ivec2(gl_FragCoord.x, k), 0); }
 void main() {
     Meeting met = Meeting(0, 0, 0, true, given(0).xyz, Momentum(given(1).w, given(1).xyz));
-    Matter matter = medium_jet_matter(0, sight_of(met, 1.25));
+    Matter matter = medium_jet_matter(0, sight_of(met, vec2(1.25)));
     o = vec4(matter.emission.x, matter.absorption.x, matter.shift, medium_jet_distance(0, met.place));
 }
 """

@@ -195,7 +195,7 @@ COMMAND = re.compile(r"^(?: {4}|```sh\n)?(?:\.venv/bin/)?(blackhole-gl(?: [^#`\n
 PAGES = (ROOT / "README.md", *(ROOT / "docs").glob("*.md"))
 LINES = sorted({(found[1] or found[2]).strip() for page in PAGES for found in COMMAND.finditer(page.read_text(encoding="utf-8"))})
 # Named in a sentence, as the command that it is, and without what the command needs.
-ONLY_NAMED = ("blackhole-gl render", "blackhole-gl video", "blackhole-gl trace", "blackhole-gl trace --float64")
+ONLY_NAMED = ("blackhole-gl render", "blackhole-gl video", "blackhole-gl video --path", "blackhole-gl trace", "blackhole-gl trace --float64")
 
 
 def arguments_of(line: str) -> list[str]:
