@@ -1,4 +1,4 @@
-"""Draws the labels of `render.labels`, the bar of `render.scale_bar` and the ticks of `render.polarized_disk` over the window's picture."""
+"""Draws the labels of `rendering.labels`, the bar of `rendering.scale_bar` and the ticks of `rendering.polarized_disk` over the window's picture."""
 
 from __future__ import annotations
 

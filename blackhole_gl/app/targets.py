@@ -52,7 +52,7 @@ class Targets:
 
     Args:
         gl: the window's context.
-        renderer: what makes pictures; see ``render.frame.Renderer``.
+        renderer: what makes pictures; see ``rendering.frame.Renderer``.
     """
 
     def __init__(self, gl: moderngl.Context, renderer: Any):

@@ -112,7 +112,7 @@ def run(
         time: scene time at which it begins, in r_s/c; that of the presets when None.
         size: width and height in units of a 96 dpi screen; those kept from the last window, or the usual ones, when None.
         picture_folder: where F12 puts pictures; the working folder when None.
-        make_renderer: makes the renderer from the window's context; ``render.frame.Renderer`` when None.
+        make_renderer: makes the renderer from the window's context; ``rendering.frame.Renderer`` when None.
         driver: drives the window through the ImGui test engine.
 
     Returns:
