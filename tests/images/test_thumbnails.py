@@ -17,7 +17,7 @@ MEAN = 3.0
 
 def test_they_are_of_presets_and_skies_that_there_are_and_small() -> None:
     assert len(NAMES) > 25 and set(NAMES) <= set(SCENES)
-    assert sum(path.stat().st_size for path in FOLDER.rglob("*.jpg")) < 330_000
+    assert sum(path.stat().st_size for path in FOLDER.rglob("*.jpg")) < 300_000
 
 
 @pytest.mark.parametrize("name", NAMES)
