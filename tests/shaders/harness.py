@@ -1,12 +1,13 @@
 """Runs a piece of GLSL with the project's includes on a small target and hands back floats.
 
 Uniforms stand alone here instead of in the renderer's blocks, so that these tests need neither scene packing nor the
-trace pass.
+trace pass. Their names and values are the default scene's: a new switch or number needs no word here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,114 +15,54 @@ import moderngl
 import numpy as np
 
 from blackhole_gl.glsl.compose import compose
-from blackhole_gl.glsl.declared import defines
-from blackhole_gl.rendering import mip_levels, star_cells, star_index
+from blackhole_gl.planning import Plan, plan
+from blackhole_gl.rendering import mip_levels, star_cells, uniforms
 from blackhole_gl.resources import assets_dir, shaders_dir
+from blackhole_gl.scene import Scene
 
 VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }"
 
-SWITCHES = {
-    "ORDERS": 1,
-    "RAYS_LISTED": 0,
-    **defines(),
-    "CAMERA_ABERRATION": 1,
-    "CAMERA_DOPPLER_COLOUR": 1,
-    "CAMERA_BEAMING": 1,
-    "DISK_FREQUENCY_SHIFT_S0": 0,
-    "DISK_FREQUENCY_SHIFT_S1": 0,
-    "DISK_PLUNGING": 0,
-    "DISK_TILTED": 0,
-    "DISK_LIMB_DARKENING_NONE": 1,
-    "DISK_LIMB_DARKENING_GREY": 0,
-    "RAYS_MODEL_KERR_LIKE": 0,
-    "RAYS_KERR_LIKE_FLOW": 0,
-    "RAYS_KERR_LIKE_PATTERN": 0,
-    "DISK_REDSHIFT": 1,
-    "DISK_DOPPLER_COLOUR": 1,
-    "DISK_BEAMING": 1,
-    "DISK_COMPOSITING_OPACITY": 1,
-    "SKY_ENABLED": 0,
-    "SKY_PROCEDURAL_FREQUENCY_SHIFT": 1,
-    "SKY_CATALOGUE_FREQUENCY_SHIFT": 1,
-    "SKY_IMAGE_FREQUENCY_SHIFT": 1,
-    "SKY_CATALOGUE_CONSTELLATIONS": 0,
-    **star_index.CONSTANTS,
-    "POST_BLOOM": 0,
-    "POST_DITHER": 0,
-    "POST_TONE_MAP_REINHARD": 0,
-    "POST_TONE_MAP_ACES": 0,
-    "POST_TONE_MAP_AGX": 0,
+# What these tests have otherwise than the default scene: one crossing, no sky and no post, so that each asks for what it tests.
+SWITCHES = {"ORDERS": 1, "SKY_ENABLED": 0, "POST_BLOOM": 0, "POST_DITHER": 0, "POST_TONE_MAP_ACES": 0}
+# Round numbers, and a camera whose frame is the world's.
+VALUES: dict[str, Any] = {
+    "disk_temperature_k": 6500.0,
+    "disk_noise_speed": 1.0,
+    "disk_turbulence_stretch": 5.0,
+    "sky_catalogue_galaxy_brightness": 0.0,
+    "image_attitude": (0.0, 0.0, 0.0, 1.0),
+    "shear_seed": (1.0, 2.0, 0.0, 0.0),
+    "observer_map": np.eye(4),
+    "camera_n": (1.0, 0.0, 0.0, 1.0),
+    "camera_e_theta": (0.0, 0.0, -1.0, 0.0),
+    "camera_w": 0.02,
+    "picture_scale": 0.05,
 }
 
-UNIFORMS: dict[str, tuple[str, Any]] = {
-    "hole_spin": ("float", 0.0),
-    "hole_spin_complement": ("float", 1.0),
-    "disk_spin_sign": ("float", 1.0),
-    "disk_r_in": ("float", 3.0),
-    "disk_r_edge": ("float", 3.0),
-    "disk_fall": ("vec4", (6.0, 0.942809, 3.464102, 0.0)),
-    "hole_w_factors": ("vec2", (2.0, 0.0)),
-    "disk_r_out": ("float", 10.0),
-    "disk_temperature_k": ("float", 6500.0),
-    "disk_beaming_exponent": ("float", 4.0),
-    "disk_emission_strength": ("float", 0.18),
-    "disk_density_gain": ("float", 9200.0),
-    "disk_noise_scale": ("float", 0.68),
-    "disk_noise_speed": ("float", 1.0),
-    "disk_turbulence_octaves": ("int", 4),
-    "disk_turbulence_contrast": ("float", 2.0),
-    "disk_turbulence_stretch": ("float", 5.0),
-    "disk_turbulence_eddy_rate": ("float", 0.03),
-    "disk_point_field_share": ("float", 0.75),
-    "disk_point_field_rings": ("float", 26.0),
-    "disk_point_field_inward_bias": ("float", 1.0),
-    "disk_point_field_ring_gain": ("float", 2.5),
-    "disk_point_field_turbulence": ("float", 0.6),
-    "disk_point_field_radial_turbulence": ("float", 0.0),
-    "disk_point_field_taper_inside": ("float", 0.06),
-    "disk_point_field_taper_outside": ("float", 0.25),
-    "disk_lanes_strength": ("float", 1.0),
-    "disk_lanes_number": ("float", 1.0),
-    "disk_micro_turbulence_strength": ("float", 1.0),
-    "disk_dust_strength": ("float", 1.0),
-    "disk_dust_octaves": ("int", 5),
-    "disk_dust_scale": ("float", 0.8),
-    "disk_dust_stretch": ("float", 1.0),
-    "disk_dust_rate": ("float", 0.06),
-    "disk_dust_falloff": ("float", 0.0),
-    "disk_relativistic_lanes_strength": ("float", 1.0),
-    "disk_lensing_flare_strength": ("float", 1.8),
-    "disk_hot_spot_size": ("float", 0.15),
-    "disk_hot_spot_brightness": ("float", 8.0),
-    "disk_spot": ("vec4", (1.0, 0.0, 5.0, 0.0)),
-    "disk_beaming_boost_strength": ("float", 1.0),
-    "rays_kerr_like_drag": ("float", 1.0),
-    "sky_brightness": ("float", 1.0),
-    "sky_procedural_star_brightness": ("float", 1.0),
-    "sky_procedural_galaxy_brightness": ("float", 1.0),
-    "sky_procedural_star_size": ("float", 0.00025),
-    "sky_catalogue_star_brightness": ("float", 1.0),
-    "sky_catalogue_galaxy_brightness": ("float", 0.0),
-    "sky_catalogue_line_brightness": ("float", 1.0),
-    "sky_catalogue_star_size": ("float", 0.00025),
-    "sky_image_brightness": ("float", 1.0),
-    "image_attitude": ("vec4", (0.0, 0.0, 0.0, 1.0)),
-    "catalogue_attitude": ("vec4", (0.0, 0.0, 0.0, 1.0)),
-    "post_exposure": ("float", 0.0),
-    "post_gamma": ("float", 1.0),
-    "post_bloom_intensity": ("float", 0.45),
-    "shear_phase": ("vec4", (0.0, 48.0, 0.0, 1.0)),
-    "shear_seed": ("vec4", (1.0, 2.0, 0.0, 0.0)),
-    "observer_map": ("mat4", tuple(np.eye(4).ravel())),
-    "camera_heading": ("vec2", (1.0, 0.0)),
-    "camera_n": ("vec4", (1.0, 0.0, 0.0, 1.0)),
-    "camera_e_theta": ("vec4", (0.0, 0.0, -1.0, 0.0)),
-    "camera_e_phi": ("vec4", (0.0, 1.0, 0.0, 0.0)),
-    "camera_w": ("float", 0.02),
-    "picture_size": ("vec2", (8.0, 8.0)),
-    "picture_offset": ("vec2", (0.0, 0.0)),
-    "picture_scale": ("float", 0.05),
-}
+
+@cache
+def _default_plan() -> Plan:
+    return plan(Scene())
+
+
+@cache
+def switches_of_default() -> dict[str, int]:
+    """Every switch that shader text may ask for, as the default scene has it but for SWITCHES."""
+    return {**uniforms.switches(_default_plan()), **SWITCHES}
+
+
+@cache
+def _declarations() -> str:
+    """Every member of the uniform blocks, each a uniform of its own."""
+    return "\n".join(f"uniform {kind} {name};" for block in uniforms.blocks() for name, kind in block.members)
+
+
+@cache
+def _values() -> dict[str, Any]:
+    """Every member of the uniform blocks, as the default scene has it in a picture of 8×8 pixels but for VALUES."""
+    made = _default_plan()
+    values = {**uniforms.ray_values(made, (8, 8)), **uniforms.shade_values(made, 0.0), **uniforms.scene_values(made), **VALUES}
+    return {name: tuple(np.ravel(np.transpose(value)).tolist()) if np.ndim(value) else value for name, value in values.items()}
 
 
 class Piece:
@@ -131,7 +72,7 @@ class Piece:
         ctx: the context.
         path: a shader below ``shaders/``, or an absolute path.
         chosen: slot → plug-in paths, as for `compose`.
-        switches, uniforms: what differs from SWITCHES and UNIFORMS; uniforms of the shader's own are set too.
+        switches, uniforms: what differs from SWITCHES, VALUES and the default scene; uniforms of the shader's own are set too.
     """
 
     def __init__(
@@ -143,16 +84,15 @@ class Piece:
         switches: Mapping[str, int] | None = None,
         **uniforms: Any,
     ):
-        blocks = "\n".join(f"uniform {kind} {name};" for name, (kind, _) in UNIFORMS.items())
         slots = {"disk_layer": [], "sky": [], **(chosen or {})}
-        composed = compose((shaders_dir(),), str(path), chosen=slots, switches={**SWITCHES, **(switches or {})}, blocks=lambda _: blocks)
+        composed = compose((shaders_dir(),), str(path), chosen=slots, switches={**switches_of_default(), **(switches or {})}, blocks=lambda _: _declarations())
         try:
             self.program = ctx.program(vertex_shader=VERTEX, fragment_shader=composed.text)
         except moderngl.Error as error:
             raise composed.explain(str(error)) from None
         self.ctx = ctx
         self.textures: list[moderngl.Texture] = []
-        self.set(**{name: value for name, (_, value) in UNIFORMS.items()})
+        self.set(**_values())
         self.set(**uniforms)
         self.table("galaxy_band", (np.load(assets_dir() / "galaxy_band.npz")["root"] / 255.0), mipmap=True)
         self.table("star_cells", star_cells.table(), nearest=True)

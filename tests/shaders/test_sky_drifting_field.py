@@ -16,9 +16,6 @@ SIZE = (128, 128)
 SNIPPET = """#version 330 core
 #defines
 #blocks
-uniform vec2 drifting_field_turn;
-uniform vec4 drifting_field_cell, drifting_field_shift;
-uniform float sky_drifting_field_scale, sky_drifting_field_threshold, sky_drifting_field_brightness;
 #slot sky
 uniform vec3 forward;
 uniform float pixel, blur;
