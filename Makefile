@@ -68,5 +68,5 @@ flight: ## ten seconds round the hole, refined and exact: docs/data/flight.csv a
 	$(BIN)/python -m studies.fly $(FLIGHT_ARGS)
 
 clean: ## remove the virtual environment and what builds and tests left
-	rm -rf $(VENV) $(addprefix .venv-,$(PYTHONS)) build dist .mypy_cache .pytest_cache .ruff_cache .hypothesis tests/output
+	rm -rf $(VENV) $(addprefix .venv-,$(PYTHONS)) build dist .pytest_cache .ruff_cache .hypothesis tests/output
 	find blackhole_gl studies tests tools -name __pycache__ -type d -exec rm -rf {} +

@@ -142,11 +142,12 @@ def plan(
 ) -> None:
     """Say how a scene's rays are traced, why, and what error and cost to expect. A tolerance that cannot be met is refused."""
     from . import planning
+    from .planning import choice
 
     preset = [*(names or ()), *(preset or ())]
     scene = scene_of(preset, set_, any_file)
-    chosen, made = planning.choice.choose(scene), planning.plan(scene)
-    moving = planning.choice.refinement(chosen.scene)
+    chosen, made = choice.choose(scene), planning.plan(scene)
+    moving = choice.refinement(chosen.scene)
     print(f"method     {made.method}")
     print(f"steps      at most {made.max_steps}, {made.evaluations_per_step} evaluations each")
     print(f"crossings  {made.orders} orders")

@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from concurrent.futures import BrokenExecutor, Future
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -117,7 +117,7 @@ class _Running:
 
 
 @contextmanager
-def _interrupts_kept_away() -> Iterator[None]:
+def _interrupts_kept_away() -> Generator[None]:
     """What is started meanwhile never gets CTRL+C's signal, which a terminal sends to all: the parent ends it, and says what there is to say."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows; there `_serve` does what it can
         yield

@@ -44,7 +44,7 @@ def _line(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     if np.ptp(x) == 0.0:
         return np.full_like(y, np.median(y))
     terms = np.stack([np.ones_like(x), x], axis=1)
-    weight = 1.0 / y
+    weight, fit = 1.0 / y, y
     for _ in range(_ROUNDS):
         fit = terms @ np.linalg.lstsq(terms * weight[:, None], y * weight, rcond=None)[0]
         weight = 1.0 / (y * np.sqrt(np.maximum(np.abs(fit / y - 1.0), 0.01)))

@@ -34,7 +34,7 @@ _KINDS = ("Bool[", "Float[", "Int[")
 
 
 def arrays_alone(function: Callable[..., Any]) -> Callable[..., Any]:
-    """`function`, checked for its arrays. All other types are mypy's: at run time whole numbers, which pass for float, would be refused."""
+    """`function`, checked for its arrays. All other types are pyrefly's: at run time whole numbers, which pass for float, would be refused."""
     function.__annotations__ = {name: hint for name, hint in function.__annotations__.items() if any(kind in str(hint) for kind in _KINDS)}
     return beartype(function)
 

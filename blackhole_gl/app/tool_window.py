@@ -22,7 +22,7 @@ def draw(title: str, contents: Callable[[], bool | None], *more: imgui.WindowFla
     for flag in more:
         flags |= flag.value
     visible, stays = imgui.begin(title, True, flags)
-    closes = bool(visible) and contents() is False
+    closes = visible and contents() is False
     imgui.end()
     return bool(stays) and not closes
 

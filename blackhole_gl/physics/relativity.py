@@ -154,7 +154,7 @@ def _metric(r: ArrayLike, theta: ArrayLike, a: ArrayLike):
 def static_lapse(r: ArrayLike, theta: ArrayLike = np.pi / 2, spin: ArrayLike = 0.0) -> Array:
     """sqrt(-g_tt): energy at infinity over energy seen by a static observer; NaN in the ergosphere [BPT]."""
     _, sine, sigma, delta, _ = _metric(r, theta, spin)
-    norm = (delta - (spin * sine) ** 2) / sigma
+    norm = (delta - (np.asarray(spin) * sine) ** 2) / sigma
     return np.sqrt(np.where(norm > 0.0, norm, np.nan))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -44,7 +44,7 @@ def own_rays(plan: Plan) -> tuple[tuple[Where, Mapping[str, int]], ...]:
 
 
 @contextmanager
-def drawn(ctx: moderngl.Context, draw: Draw, where: Where) -> Iterator[None]:
+def drawn(ctx: moderngl.Context, draw: Draw, where: Where) -> Generator[None]:
     """Has `draw` draw only `where` it says, by the depth buffer of the target in use."""
     draw.set(triangle_depth=2.0 * where.depth - 1.0)
     ctx.enable(moderngl.DEPTH_TEST)

@@ -96,8 +96,11 @@ class Sheet:
 
     def _written(self, text: str) -> str:
         """`text` with the letters that the font lacks spelled out."""
-        missing = bytes(self._font.getmask(_LACKED))
-        return "".join(letter if bytes(self._font.getmask(letter)) != missing else spelled(letter) for letter in text)
+        missing = self._drawn(_LACKED)
+        return "".join(letter if self._drawn(letter) != missing else spelled(letter) for letter in text)
+
+    def _drawn(self, letter: str) -> bytes:
+        return bytes(self._font.getmask(letter))  # type: ignore  # a sequence of pixels, which Pillow's own types do not say
 
     def _wide(self, text: str) -> float:
         return self._font.getlength(text) / _FINER

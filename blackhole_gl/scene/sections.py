@@ -9,11 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from dataclasses import fields as record_fields
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeVar
+
+_Number = TypeVar("_Number", int, float)
 
 
 def number(
-    default: float | int,
+    default: _Number,
     low: float,
     high: float,
     unit: str = "",
@@ -22,7 +24,7 @@ def number(
     physical: float | None = None,
     allow_infinity: bool = False,
     art: bool = False,
-):
+) -> _Number:
     """A record field that holds a number in the closed range low…high."""
     kind = "int" if isinstance(default, int) else "float"
     facts = dict(kind=kind, low=low, high=high, unit=unit, help=help, physical=physical, allow_infinity=allow_infinity, art=art)

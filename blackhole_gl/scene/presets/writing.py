@@ -6,6 +6,7 @@ from collections.abc import Mapping, Set
 from pathlib import Path
 
 import tomlkit
+import tomlkit.items
 
 from ... import VERSION
 from ...output import files
