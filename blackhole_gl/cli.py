@@ -1,4 +1,5 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, video, trace, curve, profile, polarization, ring, plan, bench, check and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, video, trace, curve, profile, polarization, ring, plan, bench, check,
+desktop and presets."""
 
 from __future__ import annotations
 
@@ -221,6 +222,21 @@ def check() -> None:
         sys.exit(1)
 
 
+def desktop(
+    action: Annotated[str | None, Argument(help="install, or remove.")] = None,
+) -> None:
+    """Put the viewer into the menus of a Linux desktop, and have it open scene files called *.blackhole.toml; or take it out again."""
+    from .desktop import install, remove
+
+    if action not in ("install", "remove"):
+        raise ValueError(f"desktop: got {action or 'nothing'}; allowed is install or remove")
+    changed = install() if action == "install" else remove()
+    for path in changed:
+        print(f"{'Written' if action == 'install' else 'Removed'}: {path}")
+    if not changed:
+        print("There was nothing to remove.")
+
+
 def presets(
     name: Annotated[str | None, Argument(help="Show this preset's values as TOML.")] = None,
 ) -> None:
@@ -284,6 +300,6 @@ PROGRAM = Program(
     "blackhole-gl",
     "Black holes in real time, with an error bar. Without a command: view.",
     VERSION,
-    (view, render, video, trace, curve, profile, polarization, ring, plan, bench, check, presets),
+    (view, render, video, trace, curve, profile, polarization, ring, plan, bench, check, desktop, presets),
 )
 COMMANDS = tuple(command.__name__ for command in PROGRAM.commands)

@@ -39,6 +39,11 @@ def user_shaders_dir() -> Path:
     return user_config_dir() / "shaders"
 
 
+def desktop_data_dir() -> Path:
+    """Where a desktop by freedesktop.org's rules looks for the user's own menu entries, icons and kinds of files (XDG_DATA_HOME)."""
+    return platformdirs.user_data_path()
+
+
 def user_cache_dir() -> Path:
     """The folder for what can be made again; it need not exist yet."""
     return platformdirs.user_cache_path("blackhole-gl", appauthor=False)

@@ -23,7 +23,7 @@ LAYERS = (
     {"gl_thread"},
     {"measure"},
     {"app"},
-    {"film", "layers", "self_check"},
+    {"desktop", "film", "layers", "self_check"},
     {"api"},
     {"asked"},
     {"film_cluster"},

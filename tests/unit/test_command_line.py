@@ -33,7 +33,7 @@ ENCODINGS = {
 def run(folder: Path, *arguments: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
     hidden = ("DISPLAY", "WAYLAND_DISPLAY", "PYTHONIOENCODING")
     known = {name: value for name, value in os.environ.items() if name not in hidden}
-    known |= {"PYTHONPATH": str(ROOT), "BLACKHOLE_GL_CONFIG_DIR": str(folder / "config"), **environment}
+    known |= {"PYTHONPATH": str(ROOT), "BLACKHOLE_GL_CONFIG_DIR": str(folder / "config"), "XDG_DATA_HOME": str(folder / "data"), **environment}
     return subprocess.run([sys.executable, "-m", "blackhole_gl", *arguments], env=known, cwd=folder, capture_output=True, timeout=200)
 
 
@@ -202,7 +202,7 @@ def arguments_of(line: str) -> list[str]:
     return cli._with_command(shlex.split(line)[1:])
 
 
-QUICK_COMMANDS = ("render", "trace", "curve", "polarization", "profile", "plan", "presets", "--version")
+QUICK_COMMANDS = ("render", "trace", "curve", "desktop", "polarization", "profile", "plan", "presets", "--version")
 LONG_COMMANDS = ("view", "bench", "check", "video")
 RUN = [line for line in LINES if line not in ONLY_NAMED and "NAME" not in line]
 QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
