@@ -91,7 +91,7 @@ class Film:
         about = {
             "scene": presets.picture_text(flight.scene, flight.start),
             "keys": [[keyframe.at, dict(keyframe.values)] for keyframe in flight.keys],
-            "way": None if flight.way is None else [flight.way.kind, flight.way.rate, flight.way.distance],
+            "way": None if flight.way is None else [flight.way.kind, flight.way.rate, flight.way.distance, flight.way.slows],
             "rate": flight.rate,
             "fps": str(self.fps),
             "frames": self.count,

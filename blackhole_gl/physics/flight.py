@@ -18,6 +18,7 @@ With a way the camera's place is no matter of keys::
     [way]
     kind = "rain"                   # falls from rest at infinity; "orbit": a circular geodesic
     rate = 2.0                      # r_s/c of the traveller's own clock in one second
+    slows = true                    # a fall's rate is that at its beginning, and falls with the radius
 
 The clock of matter that falls like rain is the time of its coordinates (Doran 2000), in which the scene's time then runs, through the horizon, too.
 """
@@ -43,7 +44,7 @@ from .space_time import space_time
 
 WAYS = ("rain", "orbit")
 _ENTRIES = ("title", "rate", "keys", "way")
-_WAY_ENTRIES = ("kind", "rate", "distance")
+_WAY_ENTRIES = ("kind", "rate", "distance", "slows")
 _DECIDED = {"rain": ("camera.distance", "camera.observer"), "orbit": ("camera.distance", "camera.observer", "camera.azimuth_deg")}
 _FALL_SAMPLES = 4096
 _ABOVE = 1.001  # inner horizons: a fall ends just above
@@ -67,11 +68,15 @@ class Keyframe:
 
 @dataclass(frozen=True)
 class Way:
-    """A way that gravity decides: `kind`, of `WAYS`, by `rate` r_s/c of the traveller's clock a second, from `distance` in r_s (the scene's when None)."""
+    """A way that gravity decides: `kind`, of `WAYS`, by `rate` r_s/c of the traveller's clock a second, from `distance` in r_s (the scene's when None).
+
+    A fall that `slows` has this rate at its beginning alone, and then as much less as its radius is: the last r_s would be over in a tenth of a second else.
+    """
 
     kind: Literal["rain", "orbit"]
     rate: float
     distance: float | None = None
+    slows: bool = False
 
 
 @dataclass(frozen=True)
@@ -116,7 +121,7 @@ class Flight:
         """The film's length: of its keys, or of its fall; infinite where neither ends it."""
         if self.keys and self.keys[-1].at > 0.0:
             return self.keys[-1].at
-        return self._fall.proper_time[-1] / self.way.rate if self.way and self.way.kind == "rain" else math.inf
+        return self._fall_seconds[-1] if self.way and self.way.kind == "rain" else math.inf
 
     def at(self, seconds: float) -> Moment:
         """The moment `seconds` from the film's start; before its first and after its last key it stays as there.
@@ -127,11 +132,11 @@ class Flight:
         scene = self.scene.with_values({key: track.at(seconds) for key, track in self._tracks.items()})
         if self.way is None:
             return Moment(scene, self.start + self.rate * seconds)
-        return (self._falling if self.way.kind == "rain" else self._orbiting)(scene, self.way.rate * seconds)
+        return self._falling(scene, seconds) if self.way.kind == "rain" else self._orbiting(scene, self.way.rate * seconds)
 
-    def _falling(self, scene: Scene, proper: float) -> Moment:
+    def _falling(self, scene: Scene, seconds: float) -> Moment:
         fall = self._fall
-        proper = min(max(proper, 0.0), float(fall.proper_time[-1]))
+        proper = float(np.interp(seconds, self._fall_seconds, fall.proper_time))
         r, far, speed = (float(np.interp(proper, fall.proper_time, values)) for values in (fall.radius, fall.far_time, fall.speed))
         return Moment(scene.with_values({"camera.distance": r, "camera.observer": "rain"}), self.start + proper, proper, far, speed)
 
@@ -149,6 +154,13 @@ class Flight:
     @property
     def _distance(self) -> float:
         return self.way.distance if self.way and self.way.distance is not None else self.scene.camera.distance
+
+    @cached_property
+    def _fall_seconds(self) -> Float[np.ndarray, " N"]:
+        """Of the film, at the samples of the fall."""
+        way, fall = self.way, self._fall
+        assert way is not None
+        return (fall.slowed_time if way.slows else fall.proper_time) / way.rate
 
     @cached_property
     def _fall(self) -> _Fall:
@@ -222,7 +234,10 @@ def _way(given: Any, scene: Scene, source: str) -> Way:
     begins = scene.camera.distance if distance is None else distance
     if space_time(scene).kind == "flat" or not (horizon < begins < math.inf):
         raise FlightError(source, f"[way] begins at {begins:g} r_s; allowed is outside the horizon ({horizon:.4g} r_s) of a hole, and not infinite")
-    return Way(kind, rate, distance)
+    slows = given.get("slows", False)
+    if not isinstance(slows, bool) or (slows and kind != "rain"):
+        raise FlightError(source, f"[way] slows: got {slows!r}; allowed is true or false, and true for a fall, whose radius changes")
+    return Way(kind, rate, distance, slows)
 
 
 def _refuse_unknown(given: Mapping[str, Any], known: tuple[str, ...], source: str, place: str) -> None:
@@ -294,9 +309,13 @@ def _monotone_slopes(times: Float[np.ndarray, " K"], values: Float[np.ndarray, "
 
 @dataclass(frozen=True)
 class _Fall:
-    """A fall like rain, sampled along its proper time: radius in r_s, times in r_s/c, speed in c."""
+    """A fall like rain, sampled along its proper time: radius in r_s, times in r_s/c, speed in c.
+
+    `slowed_time` is that of a clock which runs as much slower than the traveller's as the radius is smaller than at the beginning.
+    """
 
     proper_time: Float[np.ndarray, " N"]
+    slowed_time: Float[np.ndarray, " N"]
     radius: Float[np.ndarray, " N"]
     far_time: Float[np.ndarray, " N"]
     speed: Float[np.ndarray, " N"]
@@ -321,8 +340,9 @@ def _fall(distance: float, spin: float, inclination_deg: float, least: float) ->
     with np.errstate(divide="ignore", invalid="ignore"):
         dilation = np.where(outside, area / (delta * sigma), np.inf)
     proper = _integrated(by_x, -x)
+    slowed = _integrated(by_x * 3.0 * start, -np.sqrt(r))  # start/r dτ, with dx = 3r d√r: smooth as well
     far = np.where(outside, _integrated(np.where(outside, by_x * dilation, 0.0), -x), np.inf)
-    return _Fall(0.5 * proper, 0.5 * r, 0.5 * far, np.sqrt(2.0 * r * (r * r + spin * spin) / area))
+    return _Fall(0.5 * proper, 0.5 * slowed, 0.5 * r, 0.5 * far, np.sqrt(2.0 * r * (r * r + spin * spin) / area))
 
 
 def _integrated(rates: Float[np.ndarray, " N"], places: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:

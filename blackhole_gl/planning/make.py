@@ -254,7 +254,7 @@ def _visible_orders(scene: Scene) -> int:
     Each half turn thins the ring by e^{−π} in Schwarzschild (Ohanian 1987), the first being about as wide as the shadow; a spinning
     hole's rings are wider on the receding side, for which a factor of 8 is left.
     """
-    if not scene.disk.enabled:
+    if not (scene.disk.enabled or scene.post.lines_in_plane and not scene.media):
         return 0
     if not scene.rays.lensing:
         return 1

@@ -83,6 +83,11 @@ class Plan:
         return 0.0 if self.frame == MERIDIAN else self.scene.camera.azimuth_deg
 
     @property
+    def shows_disk(self) -> bool:
+        """Whether a disk is seen; crossings of its plane may be kept without."""
+        return self.orders > 0 and self.scene.disk.enabled
+
+    @property
     def is_inside(self) -> bool:
         """Whether the camera is inside the horizon, or on it."""
         return self.scene.camera.distance <= self.space_time.horizon_radius

@@ -12,8 +12,7 @@ from .programs import chosen
 
 def stands(plan: Plan) -> bool:
     """Whether time changes no light of a picture by `plan`: nothing turns, streams or moves in it. Views in false colours have scales that follow."""
-    patterns = plan.orders and chosen(plan, "disk_layer")
-    moves = patterns or transfer.changes(plan) or instances.anything_moves(plan) or any(kind.traits.changes for kind in chosen(plan, "sky"))
+    moves = chosen(plan, "disk_layer") or transfer.changes(plan) or instances.anything_moves(plan) or any(kind.traits.changes for kind in chosen(plan, "sky"))
     return plan.scene.post.view == "picture" and not moves
 
 

@@ -39,6 +39,10 @@ MOST_STOPS = 8.0
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec. 709
 _MARGIN = 1.1  # of the view over what it is to hold
 
+# r_s; beside the hole a narrow view is all shadow, and nothing in it shines. Where it is wide for that the rings that shine are thin, and need more pixels: of
+# `SIZE` alone exposure would jump by half a stop between frames of a dive, of so many times it goes evenly (0.04 stops).
+_SHADOW_RADIUS, _WIDEST_DEG, _FINER = 2.6, 150.0, 4
+
 
 class Exposure:
     """Plans with their exposure made up.
@@ -137,11 +141,14 @@ class Meter:
 
     def _metered(self, view: Plan) -> float:
         """The mean of the bright parts in stops above radiance 1; −∞ where nothing shines."""
-        if not view.orders and not view.meetings:
+        if not view.shows_disk and not view.meetings:
             return -math.inf
-        if self._target is None:
-            self._target = Target.of(self._ctx, [self._ctx.texture(SIZE, 4, dtype="f2")])
-        inputs = FrameInputs.whole(view, 0.0, SIZE)
+        size = _size(view)
+        if self._target is None or self._target.size != size:
+            if self._target is not None:
+                self._target.release()
+            self._target = Target.of(self._ctx, [self._ctx.texture(size, 4, dtype="f2")])
+        inputs = FrameInputs.whole(view, 0.0, size)
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._hit_map.trace(inputs)
         self._shade.draw(inputs, self._hit_map, self._target.frame)
@@ -162,11 +169,29 @@ def _view(plan: Plan) -> Plan:
     """`plan` for what is metered: the hole in the middle, all that shines in the picture or as much as the camera's angle takes in, and nothing else."""
     scene = plan.scene
     camera = replace(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, azimuth_deg=plan.azimuth_deg)
-    radius = _MARGIN * max(plan.disk_outer if plan.orders else 0.0, plan.reach)
+    radius = _MARGIN * max(plan.disk_outer if plan.shows_disk else 0.0, plan.reach)
     if math.isinf(camera.distance):
         camera = replace(camera, field_m=min(camera.field_m, 4.0 * radius))
     else:
-        camera = replace(camera, fov_deg=min(camera.fov_deg, math.degrees(2.0 * math.atan(radius / camera.distance))))
+        taken_in = min(camera.fov_deg, _angle_deg(radius, camera.distance))
+        camera = replace(camera, fov_deg=max(taken_in, _shadow_deg(camera.distance)))
     disk = replace(scene.disk, orders_shown="all")
     shown = Scene(scene.hole, camera, scene.rays, disk, Sky(enabled=False), Post(), Playback(), scene.parameters, scene.things, scene.media)
     return replace(plan, scene=shown, refine_px=0.0)
+
+
+def _size(view: Plan) -> tuple[int, int]:
+    """Of the metered picture."""
+    camera = view.scene.camera
+    wide = math.isfinite(camera.distance) and camera.fov_deg <= _shadow_deg(camera.distance)
+    return (_FINER * SIZE[0], _FINER * SIZE[1]) if wide else SIZE
+
+
+def _shadow_deg(distance: float) -> float:
+    """The least angle that is metered there."""
+    return min(_angle_deg(_SHADOW_RADIUS, distance), _WIDEST_DEG)
+
+
+def _angle_deg(radius: float, distance: float) -> float:
+    """Of what reaches `radius` on both sides, at `distance`."""
+    return math.degrees(2.0 * math.atan(radius / distance))

@@ -299,7 +299,7 @@ def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
         elif slot in MET_SLOTS:
             found += met.kinds(scene, slot)
         elif slot == "disk_layer":
-            found += [layer for layer in catalogue.plug_ins(slot).values() if plan.orders and scene.get(f"disk.{layer.key}")]
+            found += [layer for layer in catalogue.plug_ins(slot).values() if plan.shows_disk and scene.get(f"disk.{layer.key}")]
         else:
             found += [catalogue.plug_ins("sky")[scene.sky.model]] if scene.sky.enabled else []
     return found

@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import PixelClass
-from ..planning import GRID_MARGIN, REFINE_STEP
+from ..planning import GRID_MARGIN, REFINE_STEP, Plan
 from .classes import Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs
@@ -151,7 +151,7 @@ class CoarseGrid:
         nodes.sample({f"hits{k}": texture for k, texture in enumerate(made.rays.textures)})
         nodes.set(refine_tolerance=tolerances(inputs))
         if inputs.plan.orders:
-            nodes.set(beyond_disk=_BEYOND_DISK)
+            nodes.set(beyond_disk=_beyond_disk(inputs.plan))
         made.nodes.frame.use()
         nodes.draw()
 
@@ -204,6 +204,11 @@ class CoarseGrid:
         texture.filter = moderngl.NEAREST, moderngl.NEAREST
         texture.repeat_x = texture.repeat_y = False
         return texture
+
+
+def _beyond_disk(plan: Plan) -> float:
+    """The ratio of radii beyond which crossings do not matter; lines in the disk's plane are seen as far in as there are crossings."""
+    return max(_BEYOND_DISK, plan.disk_edge / plan.space_time.horizon_radius) if plan.scene.post.lines_in_plane and plan.space_time.has_hole else _BEYOND_DISK
 
 
 def tolerances(inputs: FrameInputs) -> tuple[float, float]:

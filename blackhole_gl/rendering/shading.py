@@ -11,6 +11,7 @@ from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPE
 from .coarse_transfer import CoarseMedia, CoarseTransfer
 from .hit_map import HitMap
 from .inputs import FrameInputs
+from .overlays import Overlays
 from .post import TONE_TABLE
 from .programs import RAY_SLOTS, SHADE_SLOTS, Draw, Programs, Samplers, chosen
 from .sorting import PixelSorting, Sorted
@@ -50,6 +51,7 @@ class ShadePass:
         self.sorting = PixelSorting(ctx, programs)
         self.transfer = TransferPass(ctx)
         self.coarse_transfer = CoarseTransfer(ctx, programs)
+        self._overlays = Overlays(ctx, programs)
         self._stretches: Mapping[str, moderngl.Texture] = {}  # what the media of this frame add
         self._sorted: Sorted | None = None  # the pixels of the last sharp map
         self._boxes: dict[Where, Box] = {}  # not known before the second frame of the same pixels
@@ -80,9 +82,10 @@ class ShadePass:
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
         self._lay_sky(inputs, hit_map, target, frame, classes)
+        self._overlays.draw_sky(inputs, hit_map, frame)
         frame.use()
         ctx.enable(moderngl.BLEND)
-        if inputs.plan.orders:
+        if inputs.plan.shows_disk:
             self._draw_matter(inputs, hit_map, MATTER, *((_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)))
         if apart:
             self._draw_media(inputs, hit_map)
@@ -91,6 +94,7 @@ class ShadePass:
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
+        self._overlays.draw_hole(inputs, hit_map, frame)
 
     def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: Mapping[str, int], behind: int) -> None:
         """The disk, things and media, and what they let through of the sky `behind` them: of all colours alike, or of each its own.

@@ -254,6 +254,12 @@ class Post:
         "Names and outlines, where closed forms put them: shadow, innermost stable orbit, rings by order, approaching and receding side. Saved pictures have "
         "them too; in the window they wait while the camera moves, but where it turns about the spin axis.",
     )
+    show_horizon: bool = switch(False, "Tint where light paths end on the horizon, as one sees it: the shadow.")
+    show_ergosphere: bool = switch(False, "Draw where the disk's plane enters the ergosphere, in which nothing stands still, by every image of it.")
+    show_photon_shell: bool = switch(False, "Draw where light can circle in the disk's plane: from the orbit of light that goes with the spin to the other.")
+    show_isco: bool = switch(False, "Draw the innermost stable circular orbit in the disk's plane, by every image of it.")
+    show_plane_grid: bool = switch(False, "Draw circles of whole r_s and rays every 30° in the disk's plane, as far as the disk reaches, by every image.")
+    show_sky_grid: bool = switch(False, "Draw latitude and longitude every 15° on the sky, about the hole's axis, where its light paths put them.")
     legend: bool = switch(True, "Draw a view's colours and scale into saved pictures of it; the window always shows them.")
     exposure: float = number(0.0, -8.0, 8.0, "stops", "Each stop doubles the light; on top of what automatic exposure finds.")
     exposure_mode: str = choice(
@@ -289,6 +295,11 @@ class Post:
     tone_map: str = choice("aces", ("linear", "reinhard", "aces", "agx"), "How scene radiance becomes screen brightness.")
     gamma: float = number(1.0, 0.2, 3.0, "", "Creative gamma on top of the screen's own.")
     dither: bool = switch(True, "Noise of less than one grey level against banding in the dark sky.")
+
+    @property
+    def lines_in_plane(self) -> bool:
+        """Whether anything is to be drawn in the disk's plane that is no matter."""
+        return self.show_ergosphere or self.show_photon_shell or self.show_isco or self.show_plane_grid
 
 
 @dataclass(frozen=True)

@@ -74,6 +74,17 @@ def test_rain_in_schwarzschilds_space_has_the_speed_of_escape() -> None:
     assert moment.speed == pytest.approx(moment.scene.camera.distance**-0.5, rel=1e-6)
 
 
+def test_a_fall_that_slows_goes_by_roots_of_the_radius() -> None:
+    """Without spin dτ = −√r dr: at a rate of r/r₀ the film's seconds are 2 r₀ (√r₀ − √r)."""
+    scene = STILL.with_values({"rays.model": "schwarzschild", "hole.spin": 0.0})
+    flown = flight.parse('[way]\nkind = "rain"\ndistance = 16.0\nrate = 8.0\nslows = true', scene)
+    for r in (9.0, 1.0, 0.25):
+        moment = flown.at(2.0 * 16.0 * (4.0 - math.sqrt(r)) / 8.0)
+        assert moment.scene.camera.distance == pytest.approx(r, rel=1e-4)
+        assert moment.proper_time == pytest.approx((64.0 - r**1.5) * 2.0 / 3.0, rel=1e-5)
+    assert flown.seconds == pytest.approx(4.0 * (4.0 - math.sqrt(0.1)), rel=1e-4)
+
+
 def test_an_orbit_turns_by_keplers_law_and_its_clock_is_slow() -> None:
     flown = flight.parse('[way]\nkind = "orbit"\nrate = 2.0\ndistance = 6.0', STILL.with_values({"hole.spin": 0.0, "rays.model": "schwarzschild"}))
     moment = flown.at(3.0)
@@ -94,7 +105,8 @@ MISTAKES = {
     keys("at = 0\ncamera.distanc = 3"): "did you mean camera.distance?",
     keys("at = 0\ncamera.distance = -3"): "[[keys]] 1: camera.distance: got -3; allowed is a number from",
     "[way]\nkind = 'up'": "[way] kind: got 'up'; allowed is one of rain, orbit",
-    "[way]\nkind = 'rain'\nspeed = 3": "[way] speed: no such entry; allowed are kind, rate, distance",
+    "[way]\nkind = 'rain'\nspeed = 3": "[way] speed: no such entry; allowed are kind, rate, distance, slows",
+    "[way]\nkind = 'orbit'\nslows = true": "[way] slows: got True; allowed is true or false, and true for a fall",
     "[way]\nkind = 'rain'\ndistance = 0.2": "[way] begins at 0.2 r_s; allowed is outside the horizon",
     "[way]\nkind = 'rain'\n" + keys("at = 0\ncamera.distance = 3"): "camera.distance is decided by the [way]",
     "keys = 3": "keys: allowed is a [[keys]] for each keyframe",
