@@ -14,7 +14,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow test-pythons gallery thumbnails api-page chart fields stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery thumbnails api-page site chart fields stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -43,6 +43,10 @@ thumbnails: ## the small pictures of the panel's pickers anew, into assets/thumb
 api-page: ## docs/python_reference.md anew, from the docstrings
 	@$(SETUP) run
 	$(BIN)/python tools/make_api_page.py
+
+site: ## the documentation as pages for a browser that need no network: build/site/index.html
+	@$(SETUP) site
+	$(BIN)/python -m sphinx -q -W --keep-going -n -d build/site.kept -c docs/site . build/site
 
 chart: ## measure every method: docs/accuracy.md, its charts, and the table the plan chooses by
 	@$(SETUP) chart

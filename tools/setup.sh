@@ -1,9 +1,9 @@
 #!/bin/sh
 # Sets up what `make` needs, and does nothing when it is all there.
 #
-#     sh tools/setup.sh run | test | chart | tools
+#     sh tools/setup.sh run | test | chart | site | tools
 #
-# run: the virtual environment, the package in editable form, the GL libraries. test, chart and tools: their extras as well.
+# run: the virtual environment, the package in editable form, the GL libraries. test, chart, site and tools: their extras as well.
 # VENV names the folder of the environment (.venv), PYTHON the interpreter it is made with.
 set -eu
 cd "$(dirname "$0")/.."
@@ -15,8 +15,8 @@ stop() { printf '%s\n' "$@" >&2; exit 1; }
 
 case $level in
     run) target=. ;;
-    test | chart | tools) target=".[$level]" ;;
-    *) stop "tools/setup.sh: '$level' is none of run, test, chart, tools." ;;
+    test | chart | site | tools) target=".[$level]" ;;
+    *) stop "tools/setup.sh: '$level' is none of run, test, chart, site, tools." ;;
 esac
 case $(uname -s) in
     MINGW* | MSYS* | CYGWIN*) venv_python=$venv/Scripts/python.exe ;;

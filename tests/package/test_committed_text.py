@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "presets", "shaders", "studies", "tests", "tools")
+FOLDERS = (".ci", "assets", "blackhole_gl", "docs", "examples", "presets", "shaders", "studies", "tests", "tools")
 BINARY = {".png", ".npy", ".npz", ".exr", ".jpg", ".pyc", ".mp4", ".ply"}
 
 # Each is written in two pieces, so that this file does not find itself.

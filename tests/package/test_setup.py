@@ -50,4 +50,4 @@ def test_old_python_is_refused(tmp_path: Path) -> None:
 def test_unknown_level_is_refused(tmp_path: Path) -> None:
     run = run_setup(tmp_path, f'exec "{sys.executable}" "$@"', level="everything")
     assert run.returncode != 0
-    assert "run, test, chart, tools" in run.stderr
+    assert "run, test, chart, site, tools" in run.stderr
