@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         Scene,
         SceneError,
         ScreenCurve,
+        Visibilities,
         critical_curve,
         gpus,
         hits,
@@ -34,8 +35,10 @@ if TYPE_CHECKING:
         radiance,
         render,
         save,
+        save_sky,
         show,
         trace,
+        visibilities,
     )  # fmt: skip
 
 # Read when NumPy is first imported, which takes 40 % longer where OpenBLAS starts a thread for each core: all our matrices are small.
@@ -44,8 +47,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 VERSION = "0.1.0"
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "critical_curve", "gpus", "hits", "isoradials", "load", "plan", "presets",
-    "radiance", "render", "save", "show", "trace",
+    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials", "load", "plan",
+    "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
 ]  # fmt: skip
 
 

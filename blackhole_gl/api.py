@@ -24,6 +24,8 @@ from numpy.typing import ArrayLike
 from . import layers, listed_rays
 from .gl_thread import GlThread
 from .glsl.declared import Fate
+from .measure import visibilities as interferometry
+from .measure.visibilities import Visibilities
 from .output import png
 from .physics import screen_curves
 from .physics.screen_curves import ScreenCurve
@@ -212,6 +214,46 @@ def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples
     return screen_curves.isoradials(scene, radii, orders, samples)
 
 
+def visibilities(
+    scene: Scene, u: ArrayLike, v: ArrayLike, size: Sequence[SupportsIndex] = (400, 400), time: float = 0.0, samples: SupportsIndex | None = None
+) -> Visibilities:
+    """What an interferometer measures of the scene's picture, at the mass and distance that it states (``source.mass_suns``, ``source.distance_pc``): shares of
+    all of its light. Up is north, left is east; the spin axis has the position angle ``camera.roll_deg``.
+
+    Args:
+        u, v: baselines towards east and north in wavelengths, arrays that broadcast; (…, 3) for `Visibilities.closure_phases`.
+
+    Raises:
+        SceneError: nothing shines; as in `render`. ValueError: a baseline is not finite.
+    """
+    return interferometry.of(_sky_picture(scene, size, time, samples), u, v)
+
+
+def save_sky(
+    path: str | Path,
+    scene: Scene,
+    size: Sequence[SupportsIndex] = (400, 400),
+    time: float = 0.0,
+    samples: SupportsIndex | None = None,
+    *,
+    flux_jy: float = 1.0,
+    frequency_hz: float = 230e9,
+    place_deg: tuple[float, float] = (0.0, 0.0),
+) -> Path:
+    """Writes the scene's picture in Jy a pixel as FITS that ehtim and other programs for interferometers read, and returns the path.
+
+    Args:
+        flux_jy: of the whole picture.
+        place_deg: right ascension and declination of its middle.
+
+    Raises:
+        ValueError: a number is out of range, or there is no astropy; as in `visibilities`.
+        OSError: it cannot be written.
+    """
+    layers.write_sky(Path(path), _sky_picture(scene, size, time, samples), scene, float(time), flux_jy, frequency_hz, place_deg)
+    return Path(path)
+
+
 def save(path: str | Path, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> Path:
     """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
     ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g.
@@ -329,6 +371,10 @@ def _as_rays(found: listed_rays.TracedRays) -> Rays:
     )
 
 
+def _sky_picture(scene: Scene, size: Sequence[SupportsIndex], time: float, samples: SupportsIndex | None) -> interferometry.SkyPicture:
+    return _shared._thread.call(interferometry.sky_picture, *_asked(scene, size, time, samples))
+
+
 def _rendered(renderer: _Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
     renderer.render_still(scene, time, size, samples)
     return np.ascontiguousarray(annotated(renderer.read_rgb8(), scene, renderer.view_of(scene)))
@@ -342,6 +388,6 @@ Scene.as_png = _as_png
 _shared = Renderer()
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "critical_curve", "gpus", "hits", "isoradials", "load", "plan", "presets",
-    "radiance", "render", "save", "show", "trace",
+    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials", "load", "plan",
+    "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
 ]  # fmt: skip

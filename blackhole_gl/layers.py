@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import listed_rays
+from .measure.visibilities import SkyPicture
 from .output.files import write_whole
 from .physics import angular_size
 from .planning import plan
@@ -78,6 +79,32 @@ def write(path: Path, layers: Layers, scene: Scene, time: float) -> None:
     write_whole(path, {".exr": _exr, ".fits": _fits, ".npz": _npz}[path.suffix.lower()](layers, scene, text))
 
 
+def write_sky(
+    path: Path, picture: SkyPicture, scene: Scene, time: float, flux_jy: float = 1.0, frequency_hz: float = 230e9, place_deg: tuple[float, float] = (0.0, 0.0)
+) -> None:
+    """Writes `picture` in Jy a pixel as FITS that ehtim, DIFMAP and CASA read: north up, east to the left, about the right ascension and declination
+    `place_deg`, with the scene inside.
+
+    Raises:
+        LayersError: there is no astropy; ValueError: a number out of range; OSError: it cannot be written.
+    """
+    for name, value, low, high in (("flux", flux_jy, 0.0, 1e6), ("frequency", frequency_hz, 1e6, 1e18), ("right ascension", place_deg[0], 0.0, 360.0)):
+        _refuse_out_of_range(name, value, low, high)
+    _refuse_out_of_range("declination", place_deg[1], -90.0, 90.0)
+    fits = _library("astropy.io.fits", "astropy", "fits")
+    made = fits.PrimaryHDU(flux_jy * picture.light[::-1])
+    made.header.update(_at_middle(picture.light.shape, "SIN", math.degrees(picture.pixel), place_deg))
+    made.header.update(
+        OBJECT="BLACKHOLE", BUNIT="JY/PIXEL", STOKES="I", FREQ=frequency_hz, MJD=0.0, OBSRA=place_deg[0], OBSDEC=place_deg[1], RADESYS="ICRS"
+    )
+    write_whole(path, _packed([made, _scene_hdu(fits, presets.picture_text(scene, time, path.absolute().parent))], fits))
+
+
+def _refuse_out_of_range(name: str, value: float, low: float, high: float) -> None:
+    if not low <= value <= high:
+        raise ValueError(f"{name}: got {value:g}; allowed is {low:g} to {high:g}")
+
+
 def _exr(layers: Layers, scene: Scene, text: str) -> bytes:
     """Red, green, blue as compositors expect them, and a layer for each of the others; floats throughout, without loss."""
     openexr = _library("OpenEXR", "openexr", "exr")
@@ -102,9 +129,16 @@ def _fits(layers: Layers, scene: Scene, text: str) -> bytes:
     for hdu in hdus:
         hdu.header.update(_world(scene, layers.radiance.shape[0], layers.radiance.shape[1]))
     hdus[0].header["BUNIT"] = ("", "linear radiance, arbitrary units; planes are red, green, blue")
-    scene_hdu = fits.ImageHDU(np.frombuffer(text.encode(), np.uint8), name="SCENE")  # UTF-8, which no card of a header may be
+    return _packed([*hdus, _scene_hdu(fits, text)], fits)
+
+
+def _scene_hdu(fits: Any, text: str) -> Any:
+    return fits.ImageHDU(np.frombuffer(text.encode(), np.uint8), name="SCENE")  # UTF-8, which no card of a header may be
+
+
+def _packed(hdus: list[Any], fits: Any) -> bytes:
     stream = io.BytesIO()
-    fits.HDUList([*hdus, scene_hdu]).writeto(stream)
+    fits.HDUList(hdus).writeto(stream)
     return stream.getvalue()
 
 
@@ -121,13 +155,22 @@ def _beside(layers: Layers) -> dict[str, np.ndarray]:
 
 
 def _world(scene: Scene, height: int, width: int) -> dict[str, Any]:
-    """Where pixels are about the picture's middle: north up, and east to the left on the sky, as astronomers draw it."""
-    about = {"CRPIX1": 0.5 * (width + 1), "CRPIX2": 0.5 * (height + 1), "CRVAL1": 0.0, "CRVAL2": 0.0}
+    """Where pixels are about the picture's middle: on the sky where `scene` tells angles there, else in M."""
     if angular_size.is_told(scene):
         step = math.degrees(angular_size.picture_height_uas(scene.camera, scene.source) * angular_size.MICROARCSECOND) / height
-        return {**about, "CTYPE1": "RA---TAN", "CTYPE2": "DEC--TAN", "CUNIT1": "deg", "CUNIT2": "deg", "CDELT1": -step, "CDELT2": step}
+        return _at_middle((height, width), "TAN", step, (0.0, 0.0))
     step = angular_size.picture_height_m(scene.camera) / height
-    return {**about, "CTYPE1": "ALPHA", "CTYPE2": "BETA", "CUNIT1": "", "CUNIT2": "", "CDELT1": step, "CDELT2": step}
+    about = _at_middle((height, width), "TAN", step, (0.0, 0.0))
+    return {**about, "CTYPE1": "ALPHA", "CTYPE2": "BETA", "CUNIT1": "", "CUNIT2": "", "CDELT1": step}
+
+
+def _at_middle(shape: tuple[int, ...], projection: str, step: float, place_deg: tuple[float, float]) -> dict[str, Any]:
+    """A header's coordinates on the sky, pixels of `step` degrees about `place_deg` in the middle: north up, and east to the left, as astronomers draw it."""
+    height, width = shape
+    return {
+        "CRPIX1": 0.5 * (width + 1), "CRPIX2": 0.5 * (height + 1), "CRVAL1": place_deg[0], "CRVAL2": place_deg[1], "CDELT1": -step, "CDELT2": step,
+        "CTYPE1": f"RA---{projection}", "CTYPE2": f"DEC--{projection}", "CUNIT1": "deg", "CUNIT2": "deg",
+    }  # fmt: skip
 
 
 def _library(module: str, package: str, extra: str) -> Any:

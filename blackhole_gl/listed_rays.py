@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from . import reference
+from . import number_lists, reference
 from .glsl.declared import Fate
+from .number_lists import Allowed, ListError, NumberList
 from .output.files import write_whole
 from .physics import observer, observer_frames, tilted_disk
 from .physics.space_time import ray_model, space_time
@@ -21,14 +22,13 @@ from .planning import plan
 from .rendering.frame import Renderer
 from .scene import Camera, Disk, Scene, met
 from .shapes import Float, Int
-from .text_files import TextError, decimal_comma, read_text
 
 FATES = tuple(fate.name.lower() for fate in Fate)
 ANGLES = ("psi", "chi")
 SCREEN = ("alpha", "beta")
 _CROSSINGS = 3
-# Column → what is allowed, in words and as a range. A float64 that is rounded up to π where written must not be refused.
-_ALLOWED = {"psi": ("0 to π (3.14159…) radians, from the direction to the hole's centre", 0.0, math.nextafter(math.pi, 4.0))}
+# A float64 that is rounded up to π where written must not be refused.
+_ALLOWED = {"psi": Allowed("0 to π (3.14159…) radians, from the direction to the hole's centre", 0.0, math.nextafter(math.pi, 4.0))}
 _AT_CROSSINGS, _MOMENTA = ("r", "phi", "g"), ("theta", "k_r", "k_theta")
 
 
@@ -37,25 +37,6 @@ def _numbered(columns: Iterable[str]) -> list[str]:
 
 
 _HEADER = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA), "energy"]
-
-
-class RayListError(ValueError):
-    """A ray list that cannot be used; the text names file, line and column."""
-
-
-@dataclass(frozen=True)
-class RayList:
-    """A list of N rays as it was read.
-
-    Attributes:
-        rays: (N, 2) float64: ψ, χ in radians, or α, β in M for a camera at infinity.
-        names: all columns of the file.
-        texts: a row a ray: what stands in them.
-    """
-
-    rays: np.ndarray
-    names: tuple[str, ...]
-    texts: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -94,47 +75,13 @@ def columns(scene: Scene) -> tuple[str, str]:
     return SCREEN if math.isinf(scene.camera.distance) else ANGLES
 
 
-def read(path: Path, scene: Scene) -> RayList:
+def read(path: Path, scene: Scene) -> NumberList:
     """The rays of the CSV file at `path`: ψ (0…π) and χ in radians, or α, β in M for a camera at infinity.
 
     Raises:
-        RayListError: no such columns, a row that has not as many values as there are columns, or a value that is not allowed.
-        OSError: the file cannot be read.
+        ListError, OSError: as `number_lists.read`.
     """
-    wanted = columns(scene)
-    try:
-        reader = csv.reader(io.StringIO(read_text(path)), skipinitialspace=True)
-        names = tuple(name.strip() for name in next(reader, ()))
-        _refuse_names(names, wanted, path)
-        rows = [(reader.line_num, row) for row in reader if row]
-    except (csv.Error, TextError) as error:
-        raise RayListError(f"{path}: {error}") from None
-    places = [names.index(name) for name in wanted]
-    for line, row in rows:
-        if len(row) != len(names):
-            raise RayListError(f"{path}, line {line}: {len(row)} values for {len(names)} columns; the decimal mark is a point: 0.5, not 0,5")
-    rays = [[_number(row[place], path, line, names[place]) for place in places] for line, row in rows]
-    return RayList(np.array(rays, float).reshape(-1, 2), names, tuple(tuple(row) for _, row in rows))
-
-
-def _refuse_names(names: tuple[str, ...], wanted: tuple[str, str], path: Path) -> None:
-    if missing := [name for name in wanted if name not in names]:
-        found = ",".join(names) or "nothing"
-        hint = "; columns are separated by commas" if any(mark in found for mark in ";\t") else ""
-        raise RayListError(f"{path}: column {missing[0]} is missing; this camera needs {wanted[0]},{wanted[1]}, the file has {found}{hint}")
-    if taken := [name for name in names if name in _HEADER or names.count(name) > 1]:
-        raise RayListError(f"{path}: column {taken[0]} is there twice in what is written; allowed is any other name")
-
-
-def _number(text: str, path: Path, line: int, column: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    allowed, low, high = _ALLOWED.get(column, ("a finite number", -math.inf, math.inf))
-    if not (math.isfinite(value) and low <= value <= high):
-        raise RayListError(f"{path}, line {line}, column {column}: got {text!r}; allowed is {allowed}{decimal_comma(text)}")
-    return value
+    return number_lists.read(path, columns(scene), "this camera", _ALLOWED, _HEADER)
 
 
 def local_vectors(rays: Float[np.ndarray, "N 2"], scene: Scene) -> Float[np.ndarray, "N 3"]:
@@ -187,10 +134,10 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
 
     Raises:
         ValueError: the model has no twin.
-        RayListError: the scene has things or media, which no twin knows.
+        ListError: the scene has things or media, which no twin knows.
     """
     if not met.is_empty(scene):
-        raise RayListError("the float64 reference knows no things and no media: take them out of the scene, or trace by the shader")
+        raise ListError("the float64 reference knows no things and no media: take them out of the scene, or trace by the shader")
     if len(rays) == 0:
         return unknown(0)
     camera, model, disk = scene.camera, ray_model(scene), plan(scene, keep_crossings=True).scene.disk
@@ -248,7 +195,7 @@ def unknown(count: int) -> TracedRays:
     return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing, number)
 
 
-def write(path: Path, rays: TracedRays, digits: int, listed: RayList | None = None) -> None:
+def write(path: Path, rays: TracedRays, digits: int, listed: NumberList | None = None) -> None:
     """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty.
 
     The columns of `listed` stand behind the others, as they were given, so that these are where they always are.

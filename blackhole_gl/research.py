@@ -1,4 +1,4 @@
-"""The commands that write numbers in place of a picture: trace, curve, profile, polarization and ring."""
+"""The commands that write numbers in place of a picture: trace, curve, visibilities, profile, polarization and ring."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ def trace(
     listed = listed_rays.read(rays, scene)
     refuse_unmet(scene, set_)
     if float64:
-        found = listed_rays.trace_by_reference(scene, listed.rays)
+        found = listed_rays.trace_by_reference(scene, listed.values)
     else:
         tell_warnings(scene)
-        found = listed_rays.trace_by_shader(renderer_by(backend), scene, listed.rays)
+        found = listed_rays.trace_by_shader(renderer_by(backend), scene, listed.values)
     listed_rays.write(out, found, 17 if float64 else 9, listed)
 
 
@@ -62,6 +62,47 @@ def curve(
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     found = curves.measured(scene, numbers_of(radii, float, "--radii"), numbers_of(orders, int, "--orders"), samples)
     write_whole(out, curves.as_csv(found, scene, size_of(size)).encode())
+
+
+def visibilities(
+    out: Annotated[Path | None, Option("--out", "-o", help="The CSV to write, a row a baseline or triangle. - is standard output.")] = None,
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    baselines: Annotated[Path | None, Option(help="CSV with columns u,v in wavelengths, towards east and north: amplitudes and phases.")] = None,
+    triangles: Annotated[Path | None, Option(help="CSV with columns u1,v1,u2,v2 of two sides: closure phases, and the three amplitudes.")] = None,
+    sky: Annotated[Path | None, Option(help="Also write the picture as FITS that ehtim reads, in Jy a pixel.")] = None,
+    flux: Annotated[float, Option(least=0.0, most=1e6, help="The whole picture's flux in Jy.")] = 1.0,
+    frequency: Annotated[float, Option(least=1e-3, most=1e9, help="GHz, for the FITS file.")] = 230.0,
+    at: Annotated[str, Option(help="Right ascension and declination in degrees, for the FITS file.")] = "0,0",
+    size: Annotated[str, Option(help="Width × height in pixels of the picture that is measured.")] = "400x400",
+    time: Annotated[float | None, Option(help="Scene time in r_s/c. When not given: that of a saved picture or scene, or 0.")] = None,
+    backend: Backend = "auto",
+) -> None:
+    """Write what an interferometer measures of a picture: visibilities on given baselines, or closure phases of triangles."""
+    from . import layers, number_lists
+    from .measure import visibilities as measured
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    given = [(path, columns) for path, columns in ((baselines, measured.BASELINES), (triangles, measured.TRIANGLES)) if path is not None]
+    if (out is None) != (not given) or len(given) > 1 or (out is None and sky is None):
+        raise ValueError("visibilities: allowed is --out with one of --baselines and --triangles, or --sky, or both")
+    for path, suffixes, what in ((out, (".csv", ".txt"), "CSV"), (sky, (".fits",), "FITS")):
+        if path is not None:
+            refuse_unwritable(path, suffixes, what)
+    place = numbers_of(at, float, "--at")
+    if len(place) != 2:
+        raise ValueError(f"--at: got {at!r}; allowed are right ascension and declination in degrees, e.g. 187.7059,12.3911")
+    listed = [number_lists.read(path, columns, "this option", {}, measured.WRITTEN) for path, columns in given]
+    refuse_unmet(scene, set_)
+    tell_warnings(scene)
+    picture = measured.sky_picture(renderer_by(backend), scene, time_of(time, preset), size_of(size), scene.rays.in_stills)
+    if sky is not None:
+        layers.write_sky(sky, picture, scene, time_of(time, preset), flux, 1e9 * frequency, (place[0], place[1]))
+    if out is not None:
+        write_whole(out, measured.as_csv(measured.of_list(picture, listed[0]), listed[0], flux).encode())
 
 
 def profile(

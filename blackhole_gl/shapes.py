@@ -10,8 +10,8 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING or "jaxtyping" in sys.modules:
-    from jaxtyping import Bool, Float, Int
+    from jaxtyping import Bool, Complex, Float, Int
 else:
-    Bool = Float = Int = None  # names to import, and no more
+    Bool = Complex = Float = Int = None  # names to import, and no more
 
-__all__ = ["Bool", "Float", "Int"]
+__all__ = ["Bool", "Complex", "Float", "Int"]

@@ -20,6 +20,7 @@ from ..physics.angular_size import m_uas, picture_height_m
 from ..planning import plan as make_plan
 from ..rendering.beam import sigma_px
 from ..rendering.frame import Renderer
+from ..rendering.metering import LUMINANCE
 from ..rendering.polarized_disk import why_not
 from ..scene import Scene, SceneError
 from ..shapes import Float
@@ -28,7 +29,6 @@ from . import polarization_maps
 FLOOR_RADIUS = 2.4
 """Where light counts as none of the ring's, in radii of the ring: the 50 µas that were taken for M87*, whose ring is 42 µas across."""
 
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 180, endpoint=False)
 _RADIAL_STEP = 0.5  # pixels
 _FIRST_STEP = 0.1  # of the search for the centre, in heights of the picture
@@ -93,7 +93,7 @@ def measure(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int]
     """
     refuse(scene)
     renderer.render(scene, time, size)
-    light = renderer.radiance().astype(float) @ _LUMINANCE
+    light = renderer.radiance().astype(float) @ LUMINANCE
     pixel_m = picture_height_m(scene.camera) / size[1]
     sharp, smooth = ring_of(light), ring_of(blurred(light, sigma_px(scene, size[1])))
     return Measured(sharp, smooth, pixel_m, pixel_m * m_uas(scene.source), *_betas(scene, size, sharp, smooth))

@@ -36,7 +36,8 @@ EVERY = 6
 MOST_STOPS = 8.0
 """The most that is made up for, either way."""
 
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec. 709
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""Of linear red, green and blue by Rec. 709."""
 _MARGIN = 1.1  # of the view over what it is to hold
 
 # r_s; beside the hole a narrow view is all shadow, and nothing in it shines. Where it is wide for that the rings that shine are thin, and need more pixels: of
@@ -152,7 +153,7 @@ class Meter:
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._hit_map.trace(inputs)
         self._shade.draw(inputs, self._hit_map, self._target.frame)
-        light = np.frombuffer(self._target.texture.read(), np.float16).reshape(-1, 4)[:, :3].astype(float) @ _LUMINANCE
+        light = np.frombuffer(self._target.texture.read(), np.float16).reshape(-1, 4)[:, :3].astype(float) @ LUMINANCE
         lit = np.sort(light[light > 0.0])
         first, last = (min(round(share * lit.size), lit.size - 1) for share in BRIGHT)
         return float(np.mean(np.log2(lit[first : max(last, first + 1)]))) if lit.size else -math.inf

@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "blackhole_gl"
 # Lowest first. A part imports from rows below its own and from itself, never sideways or upwards.
 LAYERS = (
     {"resources", "shapes", "text_files", "worker"},
-    {"arguments"},
+    {"arguments", "number_lists"},
     {"output"},
     {"scene"},
     {"physics"},

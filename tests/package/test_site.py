@@ -13,7 +13,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIGURATION = ROOT / "docs" / "site" / "conf.py"
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / name / "README.md" for name in ("examples", "shaders")), ROOT / "assets/SOURCES.md"])
+ELSEWHERE = [ROOT / "assets/SOURCES.md", *(ROOT / name / "README.md" for name in ("examples", "shaders"))]
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *ELSEWHERE])
 LINK = re.compile(r"\]\(([^()\s]+)\)")
 
 

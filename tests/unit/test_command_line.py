@@ -58,7 +58,7 @@ def test_presets_and_ray_lists_of_other_editors_are_read(tmp_path: Path, encodin
     rays.write_bytes("psi,chi\r\n0.5,1\r\n".encode(encoding))
     scene = presets.load([preset])
     assert scene.hole.spin == 0.25
-    assert listed_rays.read(rays, scene).rays.tolist() == [[0.5, 1.0]]
+    assert listed_rays.read(rays, scene).values.tolist() == [[0.5, 1.0]]
 
 
 def test_what_a_newer_version_has_is_told_and_the_rest_is_used(tmp_path: Path) -> None:
@@ -202,12 +202,13 @@ def arguments_of(line: str) -> list[str]:
     return cli._with_command(shlex.split(line)[1:])
 
 
-QUICK_COMMANDS = ("render", "trace", "curve", "desktop", "polarization", "profile", "plan", "presets", "--version")
+QUICK_COMMANDS = ("render", "trace", "curve", "desktop", "polarization", "profile", "plan", "presets", "visibilities", "--version")
 LONG_COMMANDS = ("view", "bench", "check", "video")
 RUN = [line for line in LINES if line not in ONLY_NAMED and "NAME" not in line]
 QUICK = [line for line in RUN if arguments_of(line)[0] in QUICK_COMMANDS]
 # Those about kinds of the reader's are run by tests/shaders/test_extending.py.
 LONG = [line for line in RUN if arguments_of(line)[0] in LONG_COMMANDS and not re.search("graticule|moon|haze|whirl", line)]
+LISTS = {"rays.csv": "psi,chi\n0.5,1\n", "uv.csv": "u,v\n1e9,2e9\n", "triangles.csv": "u1,v1,u2,v2\n1e9,2e9,3e9,0\n"}  # that these lines read
 LOCALES = ("utf-8", "cp1252", "C")
 # Run each time: the others are slow tests.
 SAMPLE = {
@@ -238,8 +239,11 @@ def test_every_command_line_of_the_documents_is_understood(line: str) -> None:
 @pytest.mark.parametrize("line, encoding", in_all_locales(QUICK))
 def test_command_lines_that_open_no_window_run_as_they_are(tmp_path: Path, line: str, encoding: str) -> None:
     """But for the size of pictures, which are drawn small."""
-    (tmp_path / "rays.csv").write_text("psi,chi\n0.5,1\n")
+    for name, content in LISTS.items():
+        (tmp_path / name).write_text(content)
     arguments = shlex.split(line)[1:]
+    if arguments_of(line)[0] == "visibilities":
+        arguments += ["--size", "32x32"]
     if arguments_of(line)[0] == "render":
         if "--supersample" in arguments:
             arguments[arguments.index("--supersample") + 1] = "1"

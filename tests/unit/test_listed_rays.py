@@ -12,6 +12,7 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.glsl.declared import Fate
+from blackhole_gl.number_lists import ListError
 from blackhole_gl.physics import relativity
 from blackhole_gl.scene import Scene, presets
 
@@ -85,7 +86,7 @@ def test_rays_of_which_nothing_is_known_are_written_empty(tmp_path: Path) -> Non
 
 def test_the_reference_says_that_it_knows_no_things() -> None:
     scene = scene_of().with_values({"things.ring.kind": "annulus"})
-    with pytest.raises(listed_rays.RayListError, match="no things"):
+    with pytest.raises(ListError, match="no things"):
         listed_rays.trace_by_reference(scene, RAYS)
     assert listed_rays.FATES[Fate.MET] == "met"
 
@@ -106,11 +107,11 @@ def test_the_reference_says_that_it_knows_no_things() -> None:
 def test_a_list_that_cannot_be_used_is_told_with_file_and_place(tmp_path: Path, text: str, says: str) -> None:
     path = tmp_path / "rays.csv"
     path.write_bytes(text.encode("latin-1") if "\xff" in text else text.encode())
-    with pytest.raises(listed_rays.RayListError, match=rf"rays\.csv.*{says}"):
+    with pytest.raises(ListError, match=rf"rays\.csv.*{says}"):
         listed_rays.read(path, scene_of())
 
 
 def test_the_ends_of_the_range_of_angles_are_allowed(tmp_path: Path) -> None:
     path = tmp_path / "rays.csv"
     path.write_text(f"psi,chi\n0,-40\n{math.pi:.17g},40\n")
-    assert listed_rays.read(path, scene_of()).rays.tolist() == [[0.0, -40.0], [math.pi, 40.0]]
+    assert listed_rays.read(path, scene_of()).values.tolist() == [[0.0, -40.0], [math.pi, 40.0]]
