@@ -17,7 +17,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections import OrderedDict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -41,8 +42,15 @@ _LOG_LINE = (
     re.compile(r"^(?P<kind>ERROR|WARNING): \d+:(?P<line>\d+): (?P<text>.*)$"),  # AMD, Intel, Apple
 )
 
+_GIVEN_BY_HOST = re.compile(r"#(defines|blocks|instances)")
+_MOST_KEPT = 64
+
 Line: TypeAlias = tuple[str, tuple[str, int]]
 """A line's text, and the (file, 1-based line) that it comes from."""
+
+_Chosen: TypeAlias = tuple[tuple[str, tuple[str, ...]], ...]
+_Switches: TypeAlias = tuple[tuple[str, int], ...]
+_Changed: TypeAlias = tuple[int, int] | None
 
 
 class ShaderError(Exception):
@@ -119,24 +127,113 @@ def compose(
     Raises:
         ShaderError: a file or a slot is missing, a directive is malformed, or a plug-in lacks a function of its slot that is called.
     """
-    reader = _Reader(roots, chosen or {})
-    lines = reader.lines(path)
-    used = {name: value for name, value in (switches or {}).items() if name in reader.mentioned}
-    words = live_words((text for text, _ in lines), used)
-    out: list[Line] = []
-    for text, place in lines:
-        match text.strip() if "#" in text else "":
-            case "#defines":
-                out.extend((f"#define {name} {value}", place) for name, value in used.items())
-            case "#blocks":
-                out.extend((line, place) for line in blocks(words).splitlines())
-            case "#instances":
-                out.extend((line, place) for line in instances.splitlines())
+    gathered = _gathered(tuple(roots), path, tuple((slot, tuple(paths)) for slot, paths in (chosen or {}).items()))
+    used = {name: value for name, value in (switches or {}).items() if name in gathered.mentioned}
+    words = gathered.words(tuple(used.items()))
+    texts: list[str] = []
+    places: list[tuple[str, int]] = []
+    for stretch in gathered.stretches:
+        texts += stretch.texts
+        places += stretch.places
+        match stretch.ends:
+            case "defines":
+                given = [f"#define {name} {value}" for name, value in used.items()]
+            case "blocks":
+                given = blocks(words).splitlines()
+            case "instances":
+                given = instances.splitlines()
             case _:
-                out.append((text, place))
-    reader.refuse_missing(out, used)
-    composed = "\n".join(text for text, _ in out) + "\n"
-    return Composed(composed, tuple(place for _, place in out), used, words)
+                continue
+        texts += given
+        places += [stretch.end] * len(given)
+    if gathered.asked_of_users:
+        gathered.refuse_missing(texts, places, used)
+    return Composed("\n".join(texts) + "\n", tuple(places), used, words)
+
+
+@dataclass(frozen=True)
+class _Stretch:
+    """Lines and their places, up to a directive for what the host gives, at `end`; the last has none, and its `ends` is empty."""
+
+    texts: tuple[str, ...]
+    places: tuple[tuple[str, int], ...]
+    ends: str = ""
+    end: tuple[str, int] = ("", 0)
+
+
+class _Gathered:
+    """A file with all that it brings in.
+
+    Attributes:
+        files: what was read, and when it had been changed.
+        mentioned: the identifiers of all lines.
+        stretches: the lines.
+        asked_of_users: slot → (path, name in errors) of the plug-ins that are the user's: ours are tested, and looking takes milliseconds.
+    """
+
+    def __init__(self, roots: tuple[Path, ...], path: str, chosen: _Chosen):
+        reader = _Reader(roots, dict(chosen))
+        lines = reader.lines(path)
+        self.files, self.mentioned = reader.files, reader.mentioned
+        self.stretches = tuple(_stretches(lines))
+        self.asked_of_users = reader.asked_of_users()
+        self._called = reader.called
+        self._lines = [text for text, _ in lines]
+        self._words: dict[_Switches, Words] = {}
+
+    @property
+    def is_current(self) -> bool:
+        """Whether its files are as they were."""
+        return all(_changed(file) == changed for file, changed in self.files.items())
+
+    def words(self, switches: _Switches) -> Words:
+        """The identifiers of what is compiled and run. Kept, as programs differ in switches of which few change any."""
+        if switches not in self._words:
+            self._words[switches] = live_words(self._lines, dict(switches))
+        return self._words[switches]
+
+    def refuse_missing(self, texts: Sequence[str], places: Sequence[tuple[str, int]], switches: Mapping[str, int]) -> None:
+        """Refuses the composed lines where a plug-in of the user's lacks functions that others call in it."""
+        users = {path: shown for plug_ins in self.asked_of_users.values() for path, shown in plug_ins}
+        compiled = [(text, places[number][0]) for number, text in numbered_live_lines(texts, switches)]
+        whole = "\n".join(text for text, _ in compiled)
+        given = set(_GIVEN.findall(whole))
+        asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users and function in whole}  # else its line is left out
+        for slot, functions in _OF_SLOT.items():
+            for path, own in self.asked_of_users.get(slot, ()):
+                asked |= {name: path for text, file in compiled if file != own for name in functions.findall(text)}
+        for path in dict.fromkeys(asked.values()):
+            missing = [name for name, of in asked.items() if of == path and name not in given]
+            if missing:
+                what = f"is no function {missing[0]}" if len(missing) == 1 else f"are no functions {', '.join(missing)}"
+                raise ShaderError(f"there {what}, which this plug-in has to have", users[path], 1)
+
+
+_KEPT: OrderedDict[tuple[tuple[Path, ...], str, _Chosen], _Gathered] = OrderedDict()
+
+
+def _gathered(roots: tuple[Path, ...], path: str, chosen: _Chosen) -> _Gathered:
+    """The file at `path` with all that it brings in: kept while its files are as they were, as many programs differ in switches alone."""
+    key = roots, path, chosen
+    found = _KEPT.get(key)
+    if found is None or not found.is_current:
+        found = _KEPT[key] = _Gathered(roots, path, chosen)
+        if len(_KEPT) > _MOST_KEPT:
+            _KEPT.popitem(last=False)
+    return found
+
+
+def _stretches(lines: Sequence[Line]) -> Iterator[_Stretch]:
+    first = 0
+    for number, (text, place) in enumerate(lines):
+        if "#" in text and (directive := _GIVEN_BY_HOST.fullmatch(text.strip())):
+            yield _Stretch(*_texts_and_places(lines[first:number]), directive[1], place)
+            first = number + 1
+    yield _Stretch(*_texts_and_places(lines[first:]))
+
+
+def _texts_and_places(lines: Sequence[Line]) -> tuple[tuple[str, ...], tuple[tuple[str, int], ...]]:
+    return tuple(text for text, _ in lines), tuple(place for _, place in lines)
 
 
 class _Reader:
@@ -144,13 +241,16 @@ class _Reader:
 
     Attributes:
         mentioned: the identifiers of all lines so far.
+        files: what was read so far → when it had been changed.
+        called: in lines for each: function → the plug-in that has to have it, by its file.
     """
 
     def __init__(self, roots: Sequence[Path], chosen: Mapping[str, Sequence[str]]):
         self._roots, self._chosen = roots, chosen
         self.mentioned: set[str] = set()
+        self.files: dict[str, _Changed] = {}
+        self.called: dict[str, str] = {}
         self._seen: set[str] = set()
-        self._called: dict[str, str] = {}  # in lines for each: function → the plug-in that has to have it, by its file
 
     def lines(self, path: str, asked_at: tuple[str, int] = ("", 0)) -> list[Line]:
         """Each line of the file at `path`, and of what it brings in, with its place."""
@@ -159,7 +259,7 @@ class _Reader:
         self._seen.add(path)
         root, shown = self._found(path)
         lines: list[Line] = []
-        for part in _parts(_source(os.path.join(root, path), path, shown, asked_at), shown):
+        for part in self._parts(os.path.join(root, path), path, shown, asked_at):
             lines += part.lines
             self.mentioned |= part.names
             if part.directive == "include":
@@ -171,25 +271,20 @@ class _Reader:
                 lines += self._slot(part.directive, part.rest, part.place)
         return lines
 
-    def refuse_missing(self, lines: Sequence[Line], switches: Mapping[str, int]) -> None:
-        """Refuses the composed `lines` where a plug-in of the user's lacks functions that others call in it."""
-        chosen = {plug_in for plug_ins in self._chosen.values() for plug_in in plug_ins}
-        users = {plug_in for plug_in in chosen if self._found(plug_in)[0] != self._roots[0]}  # ours are tested, and looking takes milliseconds
-        if not users:
-            return
-        compiled = [(text, lines[number][1][0]) for number, text in numbered_live_lines((text for text, _ in lines), switches)]
-        whole = "\n".join(text for text, _ in compiled)
-        given = set(_GIVEN.findall(whole))
-        asked = {function: plug_in for function, plug_in in self._called.items() if plug_in in users and function in whole}  # else its line is left out
-        for slot, functions in _OF_SLOT.items():
-            for plug_in in users.intersection(self._chosen.get(slot, ())):
-                own = self._found(plug_in)[1]
-                asked |= {name: plug_in for text, file in compiled if file != own for name in functions.findall(text)}
-        for plug_in in dict.fromkeys(asked.values()):
-            missing = [name for name, of in asked.items() if of == plug_in and name not in given]
-            if missing:
-                what = f"is no function {missing[0]}" if len(missing) == 1 else f"are no functions {', '.join(missing)}"
-                raise ShaderError(f"there {what}, which this plug-in has to have", self._found(plug_in)[1], 1)
+    def asked_of_users(self) -> dict[str, list[tuple[str, str]]]:
+        """Slot → (path, name in errors) of the plug-ins chosen for it that are not in the first root."""
+        found = {slot: [(path, self._found(path)) for path in paths] for slot, paths in self._chosen.items()}
+        users = {slot: [(path, shown) for path, (root, shown) in of if root != self._roots[0]] for slot, of in found.items()}
+        return {slot: of for slot, of in users.items() if of}
+
+    def _parts(self, file: str, path: str, shown: str, asked_at: tuple[str, int]) -> tuple[_Part, ...]:
+        try:
+            self.files[file] = changed = _changed(file)
+            return _parts(_read(file, changed), shown)
+        except OSError:
+            raise ShaderError(f"there is no shader file {path}", *asked_at) from None
+        except TextError as error:
+            raise ShaderError(f"{shown} is {error}", *asked_at) from None
 
     def _slot(self, directive: str, rest: str, place: tuple[str, int]) -> list[Line]:
         slot, _, template = rest.partition(":")
@@ -201,7 +296,7 @@ class _Reader:
                 lines += self.lines(plug_in, place)
                 continue
             key = Path(plug_in).stem
-            self._called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
+            self.called |= {name.replace("$key", key): plug_in for name in _CALLED.findall(template)}
             text = template.strip().replace("$key", key).replace("$KEY", key.upper())
             self.mentioned |= names(text)
             lines.append((text, place))
@@ -245,19 +340,18 @@ def _parts(source: str, shown: str) -> tuple[_Part, ...]:
     return *parts, _Part(tuple(lines))
 
 
-def _source(file: str, path: str, shown: str, asked_at: tuple[str, int]) -> str:
+def _changed(file: str) -> _Changed:
+    """When `file` was last changed, and its size; None where it is not there."""
     try:
         seen = os.stat(file)
-        return _read(file, seen.st_mtime_ns, seen.st_size)
+        return seen.st_mtime_ns, seen.st_size
     except OSError:
-        raise ShaderError(f"there is no shader file {path}", *asked_at) from None
-    except TextError as error:
-        raise ShaderError(f"{shown} is {error}", *asked_at) from None
+        return None
 
 
 @lru_cache(maxsize=256)
-def _read(file: str, changed_ns: int, size: int) -> str:
-    """The text of `file`, which was last changed at `changed_ns`: programs share most of their files."""
+def _read(file: str, changed: _Changed) -> str:
+    """The text of `file`, as it is since it was `changed`: programs share most of their files."""
     return read_text(Path(file))
 
 

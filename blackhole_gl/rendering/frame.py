@@ -6,6 +6,7 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -13,13 +14,12 @@ import numpy as np
 from ..planning import Plan
 from ..planning import plan as make_plan
 from ..scene import Scene
-from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, pixel_values, supersampling, views
+from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, supersampling, views
 from .coarse_transfer import CoarseMedia
 from .edges import EdgeRays
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .metering import Exposure
-from .pixel_values import PixelValues
 from .post import PostPass, keeps_stars
 from .programs import Programs, chosen
 from .shading import ShadePass
@@ -28,6 +28,9 @@ from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
 from .uniforms import stars_a_pixel
+
+if TYPE_CHECKING:
+    from .pixel_values import PixelValues
 
 TILE = 512
 """Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
@@ -331,6 +334,8 @@ class Renderer:
 
     def values_at(self, place: tuple[float, float]) -> PixelValues | None:
         """What the ray meets at `place` of the last frame, its width and height counted 0…1 from the bottom left; None where no pixel has a ray of its own."""
+        from . import pixel_values  # only for who asks: most pictures are drawn without
+
         found = self._ray_at(place)
         return None if found is None else pixel_values.of(*found)
 

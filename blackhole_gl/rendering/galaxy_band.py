@@ -13,5 +13,4 @@ def table() -> np.ndarray:
     Raises:
         FileNotFoundError: it is missing from assets/.
     """
-    with np.load(assets_dir() / "galaxy_band.npz") as stored:
-        return stored["root"]
+    return np.load(assets_dir() / "galaxy_band.npy")

@@ -12,7 +12,6 @@ from functools import lru_cache, partial
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
 
 from ..scene import files
 from ..scene.schema import SceneError
@@ -105,6 +104,8 @@ def _array(data: bytes) -> Array:
 
 def _picture(data: bytes) -> Array:
     """Linear light (rows, columns, 3) of a picture file, of all bits that it has."""
+    from PIL import Image, UnidentifiedImageError  # most scenes have none, and it takes 10 ms
+
     try:
         with warnings.catch_warnings(action="ignore"), Image.open(io.BytesIO(data), formats=FORMATS) as image:
             _refuse_size(*image.size)
@@ -115,7 +116,7 @@ def _picture(data: bytes) -> Array:
         return _linear(codes.astype(np.uint16) * 256 + _low_bytes(data), 65535.0) if deep else _linear(codes, 255.0)
     except Unusable:
         raise
-    except Image.UnidentifiedImageError:
+    except UnidentifiedImageError:
         raise Unusable("it is none of these kinds, whatever its name says") from None
     except Exception as error:  # decoders raise whatever they stumble over in a damaged file
         raise Unusable(f"it is damaged: {error or type(error).__name__}") from None
@@ -123,6 +124,8 @@ def _picture(data: bytes) -> Array:
 
 def _low_bytes(data: bytes) -> Array:
     """Of a PNG of 16 bits a colour, of which Pillow hands on the high bytes: the low ones, which are high where it is told that they come first."""
+    from PIL import Image
+
     with Image.open(io.BytesIO(data), formats=("PNG",)) as image:
         image.tile = [tile._replace(args=f"{image.mode};16L") for tile in image.tile]
         return np.asarray(image)

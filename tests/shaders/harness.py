@@ -16,8 +16,8 @@ import numpy as np
 
 from blackhole_gl.glsl.compose import compose
 from blackhole_gl.planning import Plan, plan
-from blackhole_gl.rendering import mip_levels, star_cells, uniforms
-from blackhole_gl.resources import assets_dir, shaders_dir
+from blackhole_gl.rendering import galaxy_band, mip_levels, star_cells, uniforms
+from blackhole_gl.resources import shaders_dir
 from blackhole_gl.scene import Scene
 
 VERTEX = "#version 330 core\nvoid main() { gl_Position = vec4(vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1), 0.0, 1.0); }"
@@ -94,7 +94,7 @@ class Piece:
         self.textures: list[moderngl.Texture] = []
         self.set(**_values())
         self.set(**uniforms)
-        self.table("galaxy_band", (np.load(assets_dir() / "galaxy_band.npz")["root"] / 255.0), mipmap=True)
+        self.table("galaxy_band", galaxy_band.table() / 255.0, mipmap=True)
         self.table("star_cells", star_cells.table(), nearest=True)
         self.table("temperature_profile", np.ones((1, 64, 1)))
 

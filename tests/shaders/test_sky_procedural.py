@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from blackhole_gl.resources import assets_dir
+from blackhole_gl.rendering import galaxy_band
 from tests.shaders.harness import Piece
 
 SIZE = (256, 256)
@@ -122,7 +122,7 @@ def test_every_direction_and_footprint_is_finite(sky, forward, blur: float) -> N
 
 def test_the_band_wraps() -> None:
     """From the map's last column to its first the step is as from any column to the next."""
-    root = np.load(assets_dir() / "galaxy_band.npz")["root"].astype(float)
+    root = galaxy_band.table().astype(float)
     steps = np.abs(np.diff(root, axis=1, append=root[:, :1])).mean(axis=(0, 2))
     assert steps[-1] <= steps[-40:].max() * 1.2
     assert root[[0, -1]].max() < 4.0  # and it fades to nothing where it ends
