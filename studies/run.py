@@ -36,7 +36,7 @@ def make(
         work: the folder that finished measurements are kept in, so that a broken-off run goes on; None keeps none.
         command: what the page says it was made by.
         progress: called with the share done (0…1) and what is being done.
-        plan_table: where to write the table that plan.py reads; None for not at all.
+        plan_table: where to write the table that the plan goes by; None for not at all.
 
     Raises:
         MatplotlibMissing: before anything is measured.

@@ -90,12 +90,22 @@ class Rows(Sequence[Measured]):
 
     Args:
         columns: names of the columns that there are.
-        texts: a row's entries each, in their order.
+        lines: of the table, one at least that fits.
+        fits: whether a line's entries are a row that a choice can go by.
     """
 
-    def __init__(self, columns: Sequence[str], texts: Sequence[Sequence[str]]):
-        self._columns, self._texts = columns, texts
+    def __init__(self, columns: Sequence[str], lines: Sequence[str], fits: Callable[[Sequence[str]], bool]):
+        self._columns, self._lines, self._fits = columns, lines, fits
         self._read: dict[int, Measured] = {}
+
+    @cached_property
+    def first(self) -> Sequence[str] | None:
+        """The entries of the first that fits; None where there is none."""
+        return next(filter(self._fits, csv.reader(self._lines)), None)
+
+    @cached_property
+    def _texts(self) -> list[Sequence[str]]:
+        return list(filter(self._fits, csv.reader(self._lines)))
 
     def __len__(self) -> int:
         return len(self._texts)
@@ -103,7 +113,8 @@ class Rows(Sequence[Measured]):
     def __getitem__(self, index: Any) -> Any:
         found = self._read.get(index)
         if found is None:
-            found = self._read[index] = _row(dict(zip(self._columns, self._texts[index])))
+            texts = self.first if index == 0 else self._texts[index]
+            found = self._read[index] = _row(dict(zip(self._columns, texts or ())))
         return found
 
 
@@ -116,13 +127,14 @@ def read(path: Path, models: Container[str]) -> dict[str, Rows]:
         OSError: the file cannot be read.
     """
     with open(path, newline="", encoding="utf-8") as file:
-        header, *rows = csv.reader(line for line in file if not line.startswith("#"))
-    scene, model, error, cost = (header.index(name) for name in ("scene", "model", "direction_99", "cost_flat_ratio"))
-    by_scene: dict[str, list[list[str]]] = {}
-    for row in rows:
-        if row[error] and row[cost] and row[model] in models:
-            by_scene.setdefault(row[scene], []).append(row)
-    return {name: Rows(header, texts) for name, texts in by_scene.items()}
+        head, *lines = (line for line in file if not line.startswith("#"))
+    header = next(csv.reader([head]))
+    model, error, cost = (header.index(name) for name in ("model", "direction_99", "cost_flat_ratio"))
+    by_scene: dict[str, list[str]] = {}
+    for line in lines:
+        by_scene.setdefault(line[: line.index(",")], []).append(line)
+    found = {name: Rows(header, of, lambda row: bool(row[error] and row[cost]) and row[model] in models) for name, of in by_scene.items()}
+    return {name: rows for name, rows in found.items() if rows.first is not None}
 
 
 def _row(texts: Mapping[str, str]) -> Measured:

@@ -190,7 +190,7 @@ class Renderer:
         radiance = self._shaded(inputs, self.hit_map if first else self._sample_map)
         if not diagnostics.is_on(scene):
             self.edges.draw(middle, self.hit_map, radiance)
-        mean = self._mean.add(_radiance_of(radiance))
+        mean = self._mean.add(_radiance_of(radiance).astype(np.float32))
         self._post.draw(inputs, mean, target or self._own_picture(size).frame, (0, 0, *size))
         if self._mean.count == scene.rays.at_rest:
             self._sample_map.release()
@@ -234,7 +234,7 @@ class Renderer:
         light = self.ctx.texture(size, 4, dtype="f2")  # filled here, as a large picture is better not held twice
         for share, (x, y), part in self._parts(plan, time, size, samples, tile):
             if part is not None:
-                light.write(part.astype(np.float16), viewport=(x, y, part.shape[1], part.shape[0]))
+                light.write(np.ascontiguousarray(part, np.float16), viewport=(x, y, part.shape[1], part.shape[0]))
             yield share
         self._show(plan, time, light)
 
@@ -264,7 +264,7 @@ class Renderer:
         light = np.empty((size[1], size[0], 4), np.float32)
         for _, (x, y), part in self._parts(plan, time, size, samples, TILE):
             if part is not None:
-                light[y : y + TILE, x : x + TILE] = part
+                light[y : y + len(part), x : x + part.shape[1]] = part
         return light
 
     def _show(self, plan: Plan, time: float, light: moderngl.Texture) -> None:
@@ -279,20 +279,25 @@ class Renderer:
     def _parts(
         self, plan: Plan, time: float, size: tuple[int, int], samples: int, tile: int
     ) -> Iterator[tuple[float, tuple[int, int], np.ndarray | None]]:
-        """Draws one ray a pixel of one tile at a time: the share done, the tile's lower left corner and, when all its rays are there, its mean radiance,
-        float32 (height, width, 4) with row 0 at the bottom."""
+        """Draws one ray a pixel of one tile at a time, of no more pixels than `tile`²: the share done, the tile's lower left corner and, when all its rays are
+        there, its mean radiance (height, width, 4) with row 0 at the bottom, float32, or float16 of one ray a pixel."""
         width, height = size
         self._fit_view(plan, size)
+        if width * height <= tile * tile:
+            tile = max(width, height)
         tiles = [(x, y) for y in range(0, height, tile) for x in range(0, width, tile)]
         number = samples * samples
         for done, (x, y) in enumerate(tiles):
             left, bottom = max(x - _MARGIN, 0), max(y - _MARGIN, 0)
             drawn = min(x + tile + _MARGIN, width) - left, min(y + tile + _MARGIN, height) - bottom
-            total = np.zeros((min(tile, height - y), min(tile, width - x), 4), np.float32)
+            total: np.ndarray | None = None
             for index in range(number):
                 shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
                 self._trace(inputs := FrameInputs(plan, time, drawn, size, (left + shift[0], bottom + shift[1])))
-                total += _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile] / number
+                light = _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile]
+                if number > 1:  # half floats are dear to turn into others and back
+                    light = light.astype(np.float32) / number
+                total = light if total is None else total + light
                 yield (done * number + index + 1) / (len(tiles) * number), (x, y), total if index + 1 == number else None
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
@@ -462,6 +467,6 @@ def _drawn(target: Target | None) -> Target:
 
 
 def _radiance_of(target: Target) -> np.ndarray:
-    """float32 (height, width, 4), row 0 at the bottom. Waits for the GPU."""
+    """float16 (height, width, 4), row 0 at the bottom. Waits for the GPU."""
     width, height = target.size
-    return np.frombuffer(target.texture.read(), np.float16).reshape(height, width, 4).astype(np.float32)
+    return np.frombuffer(target.texture.read(), np.float16).reshape(height, width, 4)

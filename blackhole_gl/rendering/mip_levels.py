@@ -55,10 +55,12 @@ def _halved(values: np.ndarray, axis: int) -> np.ndarray:
     if size == 1:
         return values
     fewer = size // 2
+    if size % 2 == 0 and values.dtype == np.uint8:  # the same in whole numbers, in a fifth of the time
+        low, high = (values[(slice(None),) * axis + (slice(first, None, 2),)].astype(np.uint16) for first in (0, 1))
+        return (low + high + 1 >> 1).astype(np.uint8)
     place = (np.arange(fewer) + 0.5) * (size / fewer) - 0.5
     before = place.astype(int)
-    pairs = slice(0, None, 2), slice(1, None, 2)  # of an even number: strides are read in a third of the time that places take
-    low, high = (values[(slice(None),) * axis + (part,)].astype(np.float32) for part in (pairs if size % 2 == 0 else (before, before + 1)))
+    low, high = (values.take(index, axis).astype(np.float32) for index in (before, before + 1))
     share = (place - before).astype(np.float32).reshape([-1 if k == axis else 1 for k in range(3)])
     found = low + share * (high - low)
     return (np.floor(found + 0.5) if values.dtype == np.uint8 else found).astype(values.dtype)

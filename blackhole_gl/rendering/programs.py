@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
+import os
 import time as clock
 from collections import OrderedDict
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import count
 from pathlib import Path
 
 import moderngl
 
+from .. import VERSION
+from ..glsl import compose as compose_module
 from ..glsl.carried import carry
 from ..glsl.compose import Composed, ShaderError, compose
+from ..output import cache
 from ..planning import Plan
 from ..resources import shaders_dir, user_shaders_dir
 from ..scene import catalogue, met
@@ -36,6 +41,8 @@ SHADE_SLOTS = ("disk_layer", "sky")
 MET_SLOTS = ("thing", "medium")
 
 _VERTEX = {"star_layer.frag": "star_layer.vert"}  # of programs that draw points; all others draw a triangle
+
+_BETWEEN = "\0"  # a program's two texts, neither of which may hold it
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
 
@@ -138,26 +145,22 @@ class Draw:
         self.compiled.triangle.render(moderngl.POINTS, vertices=count)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class _Texts:
-    """What a program is made of; equal where the driver is given the same."""
+    """What a program is made of; equal where the driver is given the same.
 
-    vertex: Composed
-    fragment: Composed
+    Attributes:
+        compose: gives the vertex and the fragment shader with their lines' places.
+    """
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Texts) and (self.vertex.text, self.fragment.text) == (other.vertex.text, other.fragment.text)
-
-    def __hash__(self) -> int:
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.vertex.text, self.fragment.text))
+    vertex: str
+    fragment: str
+    compose: Callable[[], tuple[Composed, Composed]] = field(compare=False)
 
     def explain(self, log: str) -> ShaderError:
         """The driver's compile `log` as an error that names the author's file and line."""
-        return (self.vertex if "vertex_shader" in log else self.fragment).explain(log)
+        vertex, fragment = self.compose()
+        return (vertex if "vertex_shader" in log else fragment).explain(log)
 
 
 class Programs:
@@ -182,6 +185,7 @@ class Programs:
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
         self._asked: tuple[Plan, _Structure] | None = None
         self._seen = self._times()
+        self._content: bytes | None = None
 
     def get(self, path: str, inputs: FrameInputs, extra: Mapping[str, int] | None = None) -> Draw:
         """What draws fragment shader `path` for `inputs`.
@@ -214,7 +218,7 @@ class Programs:
         times = self._times()
         if times == self._seen:
             return self.errors
-        self._seen, self.errors = times, []
+        self._seen, self.errors, self._content = times, [], None
         for recipe in self._composed:
             try:
                 composed = self._compose(*recipe)
@@ -240,12 +244,30 @@ class Programs:
         return found
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> _Texts:
+        compose = partial(self._composed_anew, path, structure, extra)
+        vertex, fragment = self._texts((path, structure, extra), compose)
+        return _Texts(vertex, fragment, compose)
+
+    def _texts(self, recipe: tuple, compose: Callable[[], tuple[Composed, Composed]]) -> tuple[str, str]:
+        """The texts that `compose` gives: to compose those of a first picture takes a tenth of its time."""
+        if self._content is None:
+            self._content = _content(self.roots)
+        key = self._content + repr(recipe).encode()
+        if (kept := cache.found("programs", key)) is not None:
+            vertex, _, fragment = kept.decode().partition(_BETWEEN)
+            return vertex, fragment
+        vertex, fragment = (made.text for made in compose())
+        if _content(self.roots) == self._content:  # no file has changed meanwhile
+            cache.keep("programs", key, f"{vertex}{_BETWEEN}{fragment}".encode())
+        return vertex, fragment
+
+    def _composed_anew(self, path: str, structure: _Structure, extra: tuple) -> tuple[Composed, Composed]:
         switches = dict(structure.switches + extra)
         blocks = uniforms.blocks()
         composed = partial(compose, self.roots, chosen=dict(structure.chosen), switches=switches, instances=structure.instances)
         fragment = composed(path, blocks=lambda words: carry(blocks, words).fragment)
         vertex = composed(_VERTEX.get(path, "fullscreen.vert"), blocks=lambda own: carry(blocks, fragment.words, own.run).vertex)
-        return _Texts(vertex, fragment)
+        return vertex, fragment
 
     @property
     def deadline(self) -> float:
@@ -267,7 +289,7 @@ class Programs:
 
     def _compile(self, texts: _Texts) -> Compiled:
         try:
-            program = self.ctx.program(vertex_shader=texts.vertex.text, fragment_shader=texts.fragment.text)
+            program = self.ctx.program(vertex_shader=texts.vertex, fragment_shader=texts.fragment)
         except moderngl.Error as error:
             raise texts.explain(str(error)) from None
         for block in uniforms.blocks():
@@ -278,13 +300,26 @@ class Programs:
         return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []), self._squares.array(program))
 
     def _times(self) -> tuple:
-        files = (path for root in self.roots for path in root.rglob("*") if path.suffix in (".glsl", ".frag", ".vert") and not _leads_nowhere(path))
-        return tuple(sorted((str(path), path.stat().st_mtime_ns) for path in files))
+        return tuple((file, os.stat(file).st_mtime_ns) for root in self.roots for file in _shader_files(root))
 
 
-def _leads_nowhere(path: Path) -> bool:
-    """A link to nothing, which the catalogue has told of; a file that is missing otherwise is just being replaced."""
-    return path.is_symlink() and not path.exists()
+def _content(roots: Sequence[Path]) -> bytes:
+    """A digest of all that composed texts depend on beside their recipe: every shader file, wherever the folders lie, the blocks' members, and what composes."""
+    members = [(block.name, block.binding, block.members) for block in uniforms.blocks()]
+    digest = hashlib.sha256(repr((VERSION, len(roots), members)).encode())
+    ours = [__file__, *map(str, sorted(Path(compose_module.__file__).parent.glob("*.py")))]
+    for file, name in [(file, "") for file in ours] + [(file, file.removeprefix(str(root))) for root in roots for file in _shader_files(root)]:
+        with open(file, "rb") as stream:
+            content = stream.read()
+        digest.update(repr((name, len(content))).encode())
+        digest.update(content)
+    return digest.digest()
+
+
+def _shader_files(root: Path) -> list[str]:
+    """All below `root`, but for links to nothing, which the catalogue has told of; a file that is missing otherwise is just being replaced."""
+    files = (os.path.join(folder, name) for folder, _, names in os.walk(root) for name in names if name.endswith((".glsl", ".frag", ".vert")))
+    return sorted(file for file in files if not os.path.islink(file) or os.path.exists(file))
 
 
 def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:

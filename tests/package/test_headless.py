@@ -30,7 +30,8 @@ def test_headless_frame_loads_no_window_library(tmp_path: Path) -> None:
 
 
 # Each takes a hundredth of the time of a first picture, or more.
-DEAR = {"pydantic", "typer", "click", "rich", "scipy", "pyrr", "trimesh", "importlib.metadata", "difflib", "blackhole_gl.rendering.labels"}
+OURS = {"blackhole_gl.rendering.labels", "blackhole_gl.rendering.pixel_values", "blackhole_gl.rendering.recording"}
+DEAR = {"pydantic", "typer", "click", "rich", "scipy", "pyrr", "trimesh", "PIL", "importlib.metadata", "difflib", *OURS}
 
 
 def test_a_command_loads_nothing_dear_that_its_picture_does_not_need(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from blackhole_gl import planning
 from blackhole_gl.glsl.compose import ShaderError
+from blackhole_gl.output import cache
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.hit_map import HitMap
 from blackhole_gl.rendering.inputs import FrameInputs
@@ -71,6 +72,48 @@ def test_reload_takes_up_a_change_and_survives_a_mistake(ctx: moderngl.Context, 
     assert programs.reload() == []
     changed = programs.get("trace.frag", INPUTS)
     assert changed.serial != good.serial
+
+
+def test_texts_of_an_earlier_start_are_those_of_the_files_as_they_are(
+    ctx: moderngl.Context, copy: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cache, "user_cache_dir", lambda: tmp_path / "cache")
+    composed = []
+
+    def text(root: Path) -> str:
+        programs = Programs(ctx, root)
+        anew = programs._composed_anew
+        monkeypatch.setattr(programs, "_composed_anew", lambda *recipe: composed.append(recipe) or anew(*recipe))
+        return programs._compose("trace.frag", programs._structure(INPUTS.plan), ()).fragment
+
+    first = text(copy)
+    elsewhere = Path(shutil.copytree(copy, tmp_path / "elsewhere"))
+    assert text(copy) == text(elsewhere) == first and len(composed) == 1
+    path = elsewhere / "common" / "radial_mino.glsl"
+    seen = path.stat()
+    edit(path, "return ESCAPED;", "return ESCAPER;")
+    os.utime(path, ns=(seen.st_atime_ns, seen.st_mtime_ns))  # neither its time nor its size tells
+    assert text(elsewhere) == first.replace("return ESCAPED;", "return ESCAPER;", 1) and len(composed) == 2
+    edit(path, "return ESCAPER;", "return ESCAPED;")
+    assert text(elsewhere) == first and len(composed) == 2
+
+
+def test_a_file_that_changes_while_it_is_composed_is_not_kept(ctx: moderngl.Context, copy: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "user_cache_dir", lambda: tmp_path / "cache")
+    programs = Programs(ctx, copy)
+    programs.get("trace.frag", INPUTS)
+    edit(copy / "post" / "bloom_up.frag", "void main()", "void main( )")
+    programs.get("post/bloom_up.frag", INPUTS)  # not reloaded yet
+    assert len(list((tmp_path / "cache" / "programs").iterdir())) == 1
+
+
+def test_a_mistake_of_the_drivers_in_a_kept_text_names_its_place(ctx: moderngl.Context, copy: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "user_cache_dir", lambda: tmp_path / "cache")
+    line = edit(copy / "trace.frag", "store_hits(", "store_hit(")
+    for _ in range(2):
+        with pytest.raises(ShaderError) as caught:
+            Programs(ctx, copy).get("trace.frag", INPUTS)
+        assert (caught.value.file, caught.value.line) == ("trace.frag", line)
 
 
 def test_a_missing_include_is_reported_where_it_is_asked_for(ctx: moderngl.Context, copy: Path) -> None:

@@ -266,7 +266,7 @@ def test_long_command_lines_run_too(tmp_path: Path, picture: Path, line: str, en
     for name in re.findall(r"(?<==)\S+\.jpg|\S+\.png", line):
         shutil.copy(picture, tmp_path / name)  # whatever the name says: what a file is, its content tells
     arguments = ["bench", "--size", "32x18", "--rounds", "1", "--no-euler"] if arguments_of(line)[0] == "bench" else shlex.split(line)[1:]
-    if arguments[0] == "video":
+    if arguments_of(line)[0] == "video":
         arguments = [str(ROOT / word) if word.startswith("examples/") else word for word in arguments] + ["--size", "32x18", "--fps", "1", "--seconds", "2"]
     done = run(tmp_path, *arguments, **ENCODINGS[encoding])
     assert done.returncode == 0 and b"Traceback" not in done.stderr, done.stderr
