@@ -304,7 +304,7 @@ class Programs:
 
 
 def _content(roots: Sequence[Path]) -> bytes:
-    """A digest of all that composed texts depend on beside their recipe: every shader file, wherever the folders lie, the blocks' members, and what composes."""
+    """A digest of all that composed texts depend on beside their recipe: shader files, wherever the folders lie, the blocks' members, and what composes."""
     members = [(block.name, block.binding, block.members) for block in uniforms.blocks()]
     digest = hashlib.sha256(repr((VERSION, len(roots), members)).encode())
     ours = [__file__, *map(str, sorted(Path(compose_module.__file__).parent.glob("*.py")))]
