@@ -27,8 +27,7 @@ from .glsl.declared import Fate
 from .measure import visibilities as interferometry
 from .measure.visibilities import Visibilities
 from .output import png
-from .physics import screen_curves
-from .physics.screen_curves import ScreenCurve
+from .physics.screen_curves import ScreenCurve, critical_curve, isoradials
 from .planning import Plan
 from .planning import plan as make_plan
 from .rendering import context
@@ -36,6 +35,7 @@ from .rendering.annotation import annotated
 from .rendering.frame import Renderer as _Renderer
 from .scene import Scene, SceneError
 from .scene import presets as preset_files
+from .scene.lengths import UNITS
 from .scene.presets import PresetInfo
 from .shapes import Float, Int
 
@@ -53,6 +53,8 @@ class Rays:
         direction: (…, 3): the asymptotic unit vector in the world of an escaped ray; NaN of the others.
         crossing: (…, 3, 2): r in r_s and φ in radians of the first three crossings of the disk's plane, whether there is a disk or not; NaN without.
         g: (…, 3): E_infinity/E_emitter of matter on a circular orbit there, or falling in where the scene has it so; NaN without.
+        intensity: (…, 3): bolometric, that the camera receives from the smooth disk there, over what its hottest matter sends out: (E_camera/E_emitter)^p
+            (T/T_peak)^4; 0 beside the disk, NaN without a crossing.
         lam: (…): L_z/E in M of the photon that arrives; NaN where there is none.
         steps: int (…): steps that the ray took.
     """
@@ -61,6 +63,7 @@ class Rays:
     direction: Float[np.ndarray, "*rays 3"]
     crossing: Float[np.ndarray, "*rays 3 2"]
     g: Float[np.ndarray, "*rays 3"]
+    intensity: Float[np.ndarray, "*rays 3"]
     lam: Float[np.ndarray, "*rays"]
     steps: Int[np.ndarray, "*rays"]
 
@@ -122,7 +125,7 @@ class Renderer:
     def _traced(self, scene: Scene, rays: Float[np.ndarray, "*rays 2"]) -> Rays:
         listed = rays.reshape(-1, 2)
         parts = [listed[start : start + _RAYS_AT_ONCE] for start in range(0, max(len(listed), 1), _RAYS_AT_ONCE)]
-        found = [_as_rays(self._thread.call(listed_rays.trace_by_shader, scene, part)) for part in parts]
+        found = [_as_rays(scene, self._thread.call(listed_rays.trace_by_shader, scene, part)) for part in parts]
         whole = {item.name: np.concatenate([getattr(part, item.name) for part in found]) for item in fields(Rays)}
         return Rays(**{name: values.reshape((*rays.shape[:-1], *values.shape[1:])) for name, values in whole.items()})
 
@@ -196,24 +199,6 @@ def plan(scene: Scene) -> Plan:
     return make_plan(scene)
 
 
-def critical_curve(scene: Scene, samples: int = 512) -> ScreenCurve:
-    """The edge of the shadow, light on spherical orbits (Bardeen 1973): exact at each of `samples` points, in M, µas and pixels.
-
-    Raises:
-        SceneError: the scene's space-time has no photon orbits.
-    """
-    return screen_curves.critical_curve(scene, samples)
-
-
-def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples: int = 512) -> list[ScreenCurve]:
-    """The images of circles of the equatorial plane (Luminet 1979), each of `radii` (r_s) by each of `orders`: 0 the direct image, 1 the first ring, ….
-
-    Raises:
-        SceneError: the scene's space-time has no closed form, or a radius or an order is out of range.
-    """
-    return screen_curves.isoradials(scene, radii, orders, samples)
-
-
 def visibilities(
     scene: Scene, u: ArrayLike, v: ArrayLike, size: Sequence[SupportsIndex] = (400, 400), time: float = 0.0, samples: SupportsIndex | None = None
 ) -> Visibilities:
@@ -254,18 +239,31 @@ def save_sky(
     return Path(path)
 
 
-def save(path: str | Path, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: float = 0.0, samples: SupportsIndex | None = None) -> Path:
+def save(
+    path: str | Path,
+    scene: Scene,
+    size: Sequence[SupportsIndex] = (1280, 720),
+    time: float = 0.0,
+    samples: SupportsIndex | None = None,
+    *,
+    lengths: str = "r_s",
+) -> Path:
     """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
     ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g.
 
+    Args:
+        lengths: unit of all lengths in a preset, ``r_s`` or ``M``; `load` reads both.
+
     Raises:
-        ValueError: another suffix, or one whose library is not there; as in `render`.
+        ValueError: another suffix or unit, or one whose library is not there; as in `render`.
         OSError: it cannot be written.
     """
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".toml":
-        return preset_files.save(scene, path, time=time or None)
+        if lengths not in UNITS:
+            raise ValueError(f"lengths: got {lengths!r}; allowed is one of {', '.join(UNITS)}")
+        return preset_files.save(scene, path, time=time or None, unit=lengths)
     if suffix in layers.SUFFIXES:
         layers.write(path, _shared._thread.call(layers.measured, *_asked(scene, size, time, samples)), scene, float(time))
     elif suffix == ".png":
@@ -360,12 +358,13 @@ def _coordinates(
     return first, second
 
 
-def _as_rays(found: listed_rays.TracedRays) -> Rays:
+def _as_rays(scene: Scene, found: listed_rays.TracedRays) -> Rays:
     return Rays(
         fate=found.fate,
         direction=found.direction,
         crossing=np.stack([found.crossing_r, found.crossing_phi], axis=-1),
         g=found.crossing_g,
+        intensity=listed_rays.intensities(scene, found),
         lam=found.lambda_,
         steps=found.steps,
     )

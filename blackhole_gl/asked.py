@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from .arguments import Argument, Option
-from .scene import Scene, SceneError
+from .scene import Scene, SceneError, lengths
 from .scene import presets as preset_files
 
 if TYPE_CHECKING:
@@ -33,6 +33,11 @@ Settings = Annotated[
     Option("--set", "-s", metavar="KEY=VALUE", help="Override one value, e.g. disk.outer_radius=12; lists as in TOML. Repeatable."),
 ]
 AnyFile = Annotated[bool, Option("--any-file", help="Let presets and pictures open files outside their own folders, too.")]
+Lengths = Annotated[str, Option(help=f"Unit of all lengths: {' or '.join(lengths.UNITS)}; r_s = 2 M.")]
+OneUnit = Annotated[
+    str | None,
+    Option(help="One unit for all lengths, also those given: r_s or M, r_s = 2 M.", default="radii in r_s, places on the screen and momenta in M"),
+]
 Backend = Annotated[str, Option(help="How to get a GL context without a window: auto, egl or osmesa.", variable="BLACKHOLE_GL_BACKEND")]
 
 
@@ -91,6 +96,17 @@ def size_of(text: str) -> tuple[int, int]:
     if not all(1 <= side <= 16384 for side in size):
         raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
     return size
+
+
+def unit_of(text: str) -> str:
+    """The unit of lengths that was asked for.
+
+    Raises:
+        ValueError: there is none such.
+    """
+    if text not in lengths.UNITS:
+        raise ValueError(f"--lengths: got {text!r}; allowed is one of {', '.join(lengths.UNITS)}")
+    return text
 
 
 def numbers_of(text: str, kind: type[_Number], name: str) -> list[_Number]:

@@ -9,7 +9,7 @@ from typing import Annotated, TextIO
 
 from . import VERSION
 from .arguments import Argument, Option, Program
-from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .asked import AnyFile, Backend, Lengths, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of, unit_of
 from .films import video
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
@@ -239,10 +239,11 @@ def desktop(
 
 def presets(
     name: Annotated[str | None, Argument(help="Show this preset's values as TOML.")] = None,
+    lengths: Lengths = "r_s",
 ) -> None:
     """List the presets, or show one."""
     if name is not None:
-        print(preset_files.dumps(scene_of([name], None, any_file=True), full=True), end="")
+        print(preset_files.dumps(scene_of([name], None, any_file=True), full=True, unit=unit_of(lengths)), end="")
         return
     group = ""
     for info in preset_files.available():

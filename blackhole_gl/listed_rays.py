@@ -6,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from .physics import observer, observer_frames, tilted_disk
 from .physics.space_time import ray_model, space_time
 from .planning import plan
 from .rendering.frame import Renderer
-from .scene import Camera, Disk, Scene, met
+from .scene import Camera, Disk, Scene, lengths, met
 from .shapes import Float, Int
 
 FATES = tuple(fate.name.lower() for fate in Fate)
@@ -36,7 +36,10 @@ def _numbered(columns: Iterable[str]) -> list[str]:
     return [f"{name}{n}" for n in range(_CROSSINGS) for name in columns]
 
 
-_HEADER = ["fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA), "energy"]
+_HEADER = [
+    *("fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA), "energy"),
+    *_numbered(["intensity"]),
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -75,13 +78,15 @@ def columns(scene: Scene) -> tuple[str, str]:
     return SCREEN if math.isinf(scene.camera.distance) else ANGLES
 
 
-def read(path: Path, scene: Scene) -> NumberList:
-    """The rays of the CSV file at `path`: ψ (0…π) and χ in radians, or α, β in M for a camera at infinity.
+def read(path: Path, scene: Scene, unit: str = "M") -> NumberList:
+    """The rays of the CSV file at `path`: ψ (0…π) and χ in radians, or α, β in `unit` for a camera at infinity; here they are in M.
 
     Raises:
         ListError, OSError: as `number_lists.read`.
     """
-    return number_lists.read(path, columns(scene), "this camera", _ALLOWED, _HEADER)
+    wanted = columns(scene)
+    found = number_lists.read(path, wanted, "this camera", _ALLOWED, _HEADER)
+    return replace(found, values=found.values * lengths.factor("M") / lengths.factor(unit)) if wanted == SCREEN else found
 
 
 def local_vectors(rays: Float[np.ndarray, "N 2"], scene: Scene) -> Float[np.ndarray, "N 3"]:
@@ -195,11 +200,34 @@ def unknown(count: int) -> TracedRays:
     return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing, number)
 
 
-def write(path: Path, rays: TracedRays, digits: int, listed: NumberList | None = None) -> None:
-    """Writes `rays` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty.
+def intensities(scene: Scene, rays: TracedRays) -> Float[np.ndarray, "N 3"]:
+    """Bolometric intensity that the camera of `scene` receives from the smooth disk at each crossing, over what the hottest matter sends out there:
+    (E_camera/E_emitter)^p (T/T_peak)^4, p being the scene's beaming exponent; 0 beside the disk, NaN where there is no crossing.
 
-    The columns of `listed` stand behind the others, as they were given, so that these are where they always are.
+    By the exact shift, with all of it, whatever switches the scene has; without layers, limb darkening and what covers what.
     """
+    made = plan(scene, keep_crossings=True)
+    none = np.isnan(rays.crossing_r)
+    radii = np.where(none, made.disk_outer, rays.crossing_r)
+    shows = (radii >= made.disk_edge) & (radii <= made.disk_outer) & scene.disk.enabled & ~np.isnan(rays.crossing_g)
+    shift = np.where(shows, rays.crossing_g, 0.0) / rays.energy[:, None]
+    return np.where(none, np.nan, np.where(shows, np.maximum(shift, 0.0) ** scene.disk.beaming_exponent * made.disk_temperatures(radii) ** 4, 0.0))
+
+
+def in_unit(rays: TracedRays, unit: str) -> TracedRays:
+    """`rays` with all lengths in `unit`, one of `lengths.UNITS`: radii, and λ and k_θ, which are momenta times lengths."""
+    own = lengths.factor(unit)  # of r_s, in which radii are; momenta are in M
+    momenta = own / lengths.factor("M")
+    return replace(rays, crossing_r=own * rays.crossing_r, lambda_=momenta * rays.lambda_, crossing_k_theta=momenta * rays.crossing_k_theta)
+
+
+def write(path: Path, scene: Scene, rays: TracedRays, digits: int, listed: NumberList | None = None, unit: str | None = None) -> None:
+    """Writes `rays` of `scene` as CSV, a row a ray, numbers with `digits` significant digits; what there is not is left empty.
+
+    The columns of `listed` stand behind the others, as they were given, so that these are where they always are. `unit`: as in `in_unit`.
+    """
+    intensity = intensities(scene, rays)
+    rays = rays if unit is None else in_unit(rays, unit)
     theta = np.arctan2(np.hypot(rays.direction[:, 0], rays.direction[:, 1]), rays.direction[:, 2])
     phi = np.arctan2(rays.direction[:, 1], rays.direction[:, 0])
     at_crossings = (rays.crossing_r, rays.crossing_phi, rays.crossing_g)
@@ -209,7 +237,7 @@ def write(path: Path, rays: TracedRays, digits: int, listed: NumberList | None =
     writer.writerow([*_HEADER, *(listed.names if listed else ())])
     for i, fate in enumerate(rays.fate):
         ends = _texts((theta[i], phi[i]), digits)
-        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i), rays.energy[i]), digits)
+        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i), rays.energy[i], *intensity[i]), digits)
         writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there, *(listed.texts[i] if listed else ())])
     write_whole(path, text.getvalue().encode())
 

@@ -9,9 +9,25 @@ from pathlib import Path
 from typing import Annotated
 
 from .arguments import Option
-from .asked import AnyFile, Backend, Named, Presets, Settings, numbers_of, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .asked import (
+    AnyFile,
+    Backend,
+    Named,
+    OneUnit,
+    Presets,
+    Settings,
+    numbers_of,
+    refuse_unmet,
+    renderer_by,
+    scene_of,
+    size_of,
+    tell_warnings,
+    time_of,
+    unit_of,
+)
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
+from .scene.lengths import factor
 
 
 def trace(
@@ -22,6 +38,7 @@ def trace(
     set_: Settings = None,
     any_file: AnyFile = False,
     float64: Annotated[bool, Option("--float64", help="Use the NumPy float64 reference instead of the shader.")] = False,
+    lengths: OneUnit = None,
     backend: Backend = "auto",
 ) -> None:
     """Trace listed rays through the shader that pictures use.
@@ -33,14 +50,15 @@ def trace(
     preset = [*(names or ()), *(preset or ())]
     scene = scene_of(preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
-    listed = listed_rays.read(rays, scene)
+    unit = None if lengths is None else unit_of(lengths)
+    listed = listed_rays.read(rays, scene, unit or "M")
     refuse_unmet(scene, set_)
     if float64:
         found = listed_rays.trace_by_reference(scene, listed.values)
     else:
         tell_warnings(scene)
         found = listed_rays.trace_by_shader(renderer_by(backend), scene, listed.values)
-    listed_rays.write(out, found, 17 if float64 else 9, listed)
+    listed_rays.write(out, scene, found, 17 if float64 else 9, listed, unit)
 
 
 def curve(
@@ -49,10 +67,11 @@ def curve(
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    radii: Annotated[str, Option(help="Circles of the disk's plane, in r_s, with commas.", default="none")] = "",
+    radii: Annotated[str, Option(help="Circles of the disk's plane, in r_s unless --lengths says otherwise, with commas.", default="none")] = "",
     orders: Annotated[str, Option(help="Their images: 0 direct, 1 first ring, 2 second, and so on, with commas.")] = "0,1",
     samples: Annotated[int, Option(least=8, most=100_000, help="Points a curve.")] = 512,
     size: Annotated[str, Option(help="Width × height of the picture that pixels are counted in.")] = "1280x720",
+    lengths: OneUnit = None,
 ) -> None:
     """Write where closed forms put the critical curve, and circles of the disk's plane by each order of image: in M, µas and pixels."""
     from .measure import curves
@@ -60,8 +79,10 @@ def curve(
     preset = [*(names or ()), *(preset or ())]
     scene = scene_of(preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
-    found = curves.measured(scene, numbers_of(radii, float, "--radii"), numbers_of(orders, int, "--orders"), samples)
-    write_whole(out, curves.as_csv(found, scene, size_of(size)).encode())
+    unit = None if lengths is None else unit_of(lengths)
+    circles = [radius / factor(unit or "r_s") for radius in numbers_of(radii, float, "--radii")]
+    found = curves.measured(scene, circles, numbers_of(orders, int, "--orders"), samples)
+    write_whole(out, curves.as_csv(found, scene, size_of(size), unit).encode())
 
 
 def visibilities(

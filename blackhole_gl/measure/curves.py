@@ -9,9 +9,10 @@ from collections.abc import Sequence
 
 from ..physics import angular_size, screen_curves
 from ..physics.screen_curves import ScreenCurve
-from ..scene import Scene
+from ..scene import Scene, lengths
 
-_COLUMNS = ("curve", "radius_rs", "order", "angle", "alpha_m", "beta_m", "alpha_uas", "beta_uas", "x_px", "y_px")
+_COLUMNS = ("curve", "radius_{radius}", "order", "angle", "alpha_{screen}", "beta_{screen}", "alpha_uas", "beta_uas", "x_px", "y_px")
+_NAMES = {"r_s": "rs", "M": "m"}  # of units, in columns'
 
 
 def measured(scene: Scene, radii: Sequence[float], orders: Sequence[int], samples: int) -> list[ScreenCurve]:
@@ -24,18 +25,20 @@ def measured(scene: Scene, radii: Sequence[float], orders: Sequence[int], sample
     return [edge, *(screen_curves.isoradials(scene, radii, orders, samples) if radii and orders else ())]
 
 
-def as_csv(found: Sequence[ScreenCurve], scene: Scene, size: tuple[int, int]) -> str:
-    """A row a point: lengths in M right and up of the hole, in µas where `scene` stands for a real object, and pixels of a picture of `size` from the outer
-    corner of its top left one. What there is not is left empty."""
+def as_csv(found: Sequence[ScreenCurve], scene: Scene, size: tuple[int, int], unit: str | None = None) -> str:
+    """A row a point: lengths right and up of the hole in M, in µas where `scene` stands for a real object, and pixels of a picture of `size` from the outer
+    corner of its top left one; radii in r_s. `unit`, one of `lengths.UNITS`: that of all lengths instead. What there is not is left empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_COLUMNS)
+    radial, across = unit or "r_s", unit or "M"
+    writer.writerow([name.format(radius=_NAMES[radial], screen=_NAMES[across]) for name in _COLUMNS])
+    of_rs, of_m = lengths.factor(radial), lengths.factor(across) / lengths.factor("M")
     told = angular_size.is_told(scene)
     for curve in found:
         pixels = curve.in_pixels(scene, size)
         angles = curve.in_uas(scene) if told else (math.nan + curve.alpha, math.nan + curve.beta)
-        about = [curve.kind, _number(curve.radius), curve.order if curve.order >= 0 else ""]
-        for values in zip(curve.angle, curve.alpha, curve.beta, *angles, *pixels):
+        about = [curve.kind, _number(of_rs * curve.radius), curve.order if curve.order >= 0 else ""]
+        for values in zip(curve.angle, of_m * curve.alpha, of_m * curve.beta, *angles, *pixels):
             writer.writerow([*about, *(_number(value) for value in values)])
     return text.getvalue()
 

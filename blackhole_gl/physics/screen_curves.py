@@ -60,7 +60,7 @@ class ScreenCurve:
 
 
 def critical_curve(scene: Scene, samples: int = 512) -> ScreenCurve:
-    """The edge of the shadow, light on spherical orbits (Bardeen 1973): exact at each of `samples` points.
+    """The edge of the shadow, light on spherical orbits (Bardeen 1973): exact at each of `samples` points, in M, µas and pixels.
 
     Raises:
         SceneError: the scene's space-time has no photon orbits.
@@ -71,7 +71,8 @@ def critical_curve(scene: Scene, samples: int = 512) -> ScreenCurve:
 
 
 def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples: int = 512) -> list[ScreenCurve]:
-    """The images of circles of the equatorial plane (Luminet 1979), each of `radii` (r_s) by each of `orders`, at `samples` angles on the screen.
+    """The images of circles of the equatorial plane (Luminet 1979), each of `radii` (r_s) by each of `orders`, at `samples` angles on the screen: 0 the
+    direct image, 1 the first ring, ….
 
     Raises:
         SceneError: the scene's space-time has no closed form; or a radius not between the horizon and the camera, or an order not 0, 1, 2, ….

@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from ..physics import disk_profile
 from ..physics.space_time import SpaceTime
 from ..scene import Scene
 from ..scene.catalogue import PlugIn
 from ..scene.traits import IntegratorTraits, RayModelTraits, StepControlTraits
+from ..shapes import Float
 
 REFINE_STEP = 4
 """Pixels between the exact rays of a refined hit map's coarse grid."""
@@ -86,6 +90,20 @@ class Plan:
     def shows_disk(self) -> bool:
         """Whether a disk is seen; crossings of its plane may be kept without."""
         return self.orders > 0 and self.scene.disk.enabled
+
+    def disk_temperatures(self, radii: Float[np.ndarray, "*radii"]) -> Float[np.ndarray, "*radii"]:
+        """T/T_peak of the disk's matter at `radii` in r_s, by its temperature law; 0 inside of all matter, and going on beyond the outer edge."""
+        disk = self.scene.disk
+        return disk_profile.temperature(
+            disk.temperature_law,
+            radii,
+            spin=self.space_time.matter_spin(disk),
+            orbit=disk.orbit,
+            r_in=self.disk_inner,
+            r_out=self.disk_outer,
+            torque=disk.inner_torque,
+            edge=self.disk_edge,
+        )
 
     @property
     def is_inside(self) -> bool:

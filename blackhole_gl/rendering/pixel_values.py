@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import accretion, disk_profile, lensed_circles, plunging, relativity, tilted_disk
+from ..physics import accretion, lensed_circles, plunging, relativity, tilted_disk
 from ..physics.observer import observe
 from ..planning import Plan
 from . import instances
@@ -100,16 +100,7 @@ def _on_disk(plan: Plan, hits: HitArrays, light: lensed_circles.Light) -> OnDisk
         gravity, motion = _tilted_shift(plan, place, light, bool(hits.inbound[order]))
     else:
         gravity, motion = frequency_shift(plan, radius, math.nan if light.is_bound else float(light.lam))
-    (profile,) = disk_profile.temperature(
-        disk.temperature_law,
-        np.array([radius]),
-        spin=plan.space_time.matter_spin(disk),
-        orbit=disk.orbit,
-        r_in=plan.disk_inner,
-        r_out=plan.disk_outer,
-        torque=disk.inner_torque,
-        edge=plan.disk_edge,
-    )
+    (profile,) = plan.disk_temperatures(np.array([radius]))
     seen = accretion.hottest(plan.scene) * float(profile) * (gravity * energy if disk.redshift else 1.0) * (motion if disk.doppler_colour else 1.0)
     return OnDisk(order, radius, math.atan2(place[1], place[0]), gravity * motion * energy, seen)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl import reference
+from blackhole_gl import listed_rays, reference
 from blackhole_gl.physics import relativity
 from blackhole_gl.physics.disk_profile import page_thorne_flux
 from blackhole_gl.rendering.frame import Renderer
@@ -31,6 +31,9 @@ def test_light_of_the_smooth_disk(renderer: Renderer, spin: float, inclination: 
     off = np.abs(found - truth)[inside] / truth[inside]
     print(f"a* = {spin}, {inclination:g} degrees, {np.count_nonzero(inside)} pixels: 99 % within {np.quantile(off, 0.99):.1e}, the worst {off.max():.1e}")
     assert np.count_nonzero(inside) > 1000 and np.quantile(off, 0.99) <= BOUND
+    listed = listed_rays.intensities(scene, listed_rays.trace_by_shader(renderer, scene, listed_rays.pixel_rays(scene, SIZE).reshape(-1, 2)))
+    told = np.nansum(listed, axis=1).reshape(SIZE[::-1])[::-1]
+    assert np.quantile(np.abs(found - told)[inside] / told[inside], 0.99) <= BOUND, "listed rays tell the same"
 
 
 def light_of_the_twin(spin: float, inclination: float, field_m: float) -> tuple[np.ndarray, np.ndarray]:

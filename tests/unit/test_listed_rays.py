@@ -13,7 +13,8 @@ import pytest
 from blackhole_gl import listed_rays
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.number_lists import ListError
-from blackhole_gl.physics import relativity
+from blackhole_gl.physics import disk_profile, relativity
+from blackhole_gl.planning import plan
 from blackhole_gl.scene import Scene, presets
 
 RAYS = np.array([[0.2, 1.0], [0.4, 4.5], [0.25, 5.0], [0.3, 3.8], [0.19, 1.5], [0.01, 0.0], [3.0, 2.0]])
@@ -25,7 +26,7 @@ def scene_of(**changes) -> Scene:
 
 
 def written(path: Path, traced: listed_rays.TracedRays) -> list[dict[str, str]]:
-    listed_rays.write(path, traced, 17)
+    listed_rays.write(path, scene_of(), traced, 17)
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
@@ -33,8 +34,9 @@ def written(path: Path, traced: listed_rays.TracedRays) -> list[dict[str, str]]:
 def test_the_columns_of_crossings_come_in_turn_and_those_of_momenta_at_the_end(tmp_path: Path) -> None:
     rows = written(tmp_path / "hits.csv", listed_rays.trace_by_reference(scene_of(), RAYS))
     assert list(rows[0]) == (
-        "fate theta phi steps evaluations r0 phi0 g0 r1 phi1 g1 r2 phi2 g2 lambda theta0 k_r0 k_theta0 theta1 k_r1 k_theta1 theta2 k_r2 k_theta2 energy".split()
-    )
+        "fate theta phi steps evaluations r0 phi0 g0 r1 phi1 g1 r2 phi2 g2 lambda theta0 k_r0 k_theta0 theta1 k_r1 k_theta1 theta2 k_r2 k_theta2 energy "
+        "intensity0 intensity1 intensity2"
+    ).split()
 
 
 def test_what_is_written_is_what_was_found_and_is_light(tmp_path: Path) -> None:
@@ -82,6 +84,21 @@ def test_rays_of_which_nothing_is_known_are_written_empty(tmp_path: Path) -> Non
     assert [row["fate"] for row in rows] == ["unresolved", "unresolved"]
     assert [row["lambda"] for row in rows] == ["1.5", ""]
     assert all(value == "" for name, value in rows[0].items() if name not in {"fate", "steps", "evaluations", "lambda"})
+
+
+def test_intensities_are_those_of_the_disks_law_by_its_shift() -> None:
+    scene = scene_of(disk__outer_radius=8.0)
+    traced = listed_rays.trace_by_reference(scene, RAYS)
+    found = listed_rays.intensities(scene, traced)
+    made = plan(scene)
+    on = (traced.crossing_r >= made.disk_inner) & (traced.crossing_r <= 8.0)
+    assert on.any() and np.array_equal(np.isnan(found), np.isnan(traced.crossing_r))
+    assert np.all(found[~on & ~np.isnan(found)] == 0.0)
+    flux = disk_profile.page_thorne_flux(traced.crossing_r[on], 0.9) / disk_profile.page_thorne_flux(np.linspace(made.disk_inner, 8.0, 20_001), 0.9).max()
+    # The law is scanned for its peak at 4096 radii, twice refined; here at 20,001, so that the two are within 1e-7.
+    assert np.allclose(found[on], flux * (traced.crossing_g / traced.energy[:, None])[on] ** 4, rtol=1e-6)
+    dark = listed_rays.intensities(scene.with_values({"disk.enabled": False}), traced)
+    assert np.nanmax(dark) == 0.0
 
 
 def test_the_reference_says_that_it_knows_no_things() -> None:

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from ...text_files import decimal_comma
-from .. import FrozenMap, Scene, catalogue, fields, instances
+from .. import FrozenMap, Scene, catalogue, fields, instances, lengths
 from ..catalogue import KIND, SWITCH
 from ..headers import is_name
 from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest, nearest_key
 from . import paths
 
 GROUPS = ("physics", "look", "quality", "steps", "scene")
-_TEXT_ENTRIES = ("title", "description", "group", "formerly", "version")
+_TEXT_ENTRIES = ("title", "description", "group", "formerly", "version", "lengths")
 _NUMBER_ENTRIES = ("rank", "time")
 _SWITCH_ENTRIES = ("paused",)
 _ABOUT = _TEXT_ENTRIES + _NUMBER_ENTRIES + _SWITCH_ENTRIES
@@ -48,6 +48,7 @@ class Preset:
         group: one of `GROUPS`, or empty.
         formerly: the name it had, by which it is still found; empty where it had no other.
         rank: place in lists of its group, smallest first.
+        lengths: the unit that lengths have in the file, one of `lengths.UNITS`; here all are in r_s.
         time: scene time at which it was saved, r_s/c; None for presets of no time.
         paused: whether time stood still then.
         values: the scene's values it sets, by dotted key, checked; but those of an instance whose kind it leaves to other presets are as they
@@ -64,6 +65,7 @@ class Preset:
     group: str = ""
     formerly: str = ""
     version: str = ""
+    lengths: str = "r_s"
     rank: float = 100.0
     time: float | None = None
     paused: bool = False
@@ -136,11 +138,14 @@ class _Reader:
 
     def __init__(self, source: str, text: str):
         self._source, self._text = source, text
+        self._unit = "r_s"
         self._values: dict[str, Any] = {}
         self._skipped: list[str] = []
 
     def read(self, data: Mapping[str, Any], folder: Path | None) -> Preset:
         about: dict[str, Any] = {}
+        if "lengths" in data:
+            self._unit = str(self._about("lengths", data["lengths"]))  # wherever it stands
         for name, value in data.items():
             if name in _ABOUT:
                 about[name] = self._about(name, value)
@@ -148,6 +153,8 @@ class _Reader:
                 self._section_of_instances(name, value)
             else:
                 self._walk(_quoted(name), value)
+        if "time" in about:
+            about["time"] /= lengths.factor(self._unit)
         return Preset(**about, values=self._values, skipped=tuple(self._skipped), source=self._source, folder=folder, text=self._text)
 
     def _about(self, name: str, value: Any) -> str | float | bool:
@@ -159,9 +166,10 @@ class _Reader:
             allowed = "true or false"
             if isinstance(value, bool):
                 return value
-        elif name == "group":
-            allowed = "one of " + ", ".join(GROUPS)
-            if value in GROUPS:
+        elif name in ("group", "lengths"):
+            words = GROUPS if name == "group" else lengths.UNITS
+            allowed = "one of " + ", ".join(words)
+            if value in words:
                 return value
         else:
             allowed = "text in quotes"
@@ -187,9 +195,13 @@ class _Reader:
 
     def _put(self, item: Field, value: Any) -> None:
         try:
-            self._values[item.key] = item.check(self._of_known_columns(item, value))
+            self._values[item.key] = self._checked(item, self._of_known_columns(item, value))
         except SceneError as error:
             raise self._error(item.key, error.message + _comma_in(value), error.entry) from None
+
+    def _checked(self, item: Field, value: Any) -> Any:
+        """`value`, which is in the file's unit of lengths, as the scene has it."""
+        return lengths.in_rs(item, lengths.field_in(item, self._unit).check(value), self._unit)
 
     def _section_of_instances(self, section: str, value: Any) -> None:
         if not isinstance(value, dict):
@@ -206,6 +218,8 @@ class _Reader:
 
     def _instance(self, place: instances.Place, entries: Mapping[str, Any]) -> None:
         """What is said of one instance; without its kind no more can be seen here than that the names may be some."""
+        if self._unit != "r_s" and KIND not in entries:
+            raise self._error(place.path, f"no kind; with lengths = \"{self._unit}\" one file has to say both kind and values of it")
         kind, kinds = entries.get(KIND), catalogue.plug_ins(instances.SLOTS[place.section])
         known = instances.fields_of(place, kind) if isinstance(kind, str) and kind in kinds else None
         for name in entries:
@@ -217,13 +231,17 @@ class _Reader:
         if known is not None:
             entries = {name: self._of_known_columns(known[name], value) for name, value in entries.items()}
         if KIND in entries:
-            given = {instances.Place(place.section, place.name, name): value for name, value in entries.items()}
             try:
+                given = {instances.Place(place.section, place.name, name): self._of_instance(known, name, value) for name, value in entries.items()}
                 made = instances.changed(place.section, FrozenMap(), given.items())[place.name]
             except SceneError as error:
                 raise self._error(error.key, error.message + _comma_in(entries.get(error.key.rpartition(".")[2])), error.entry) from None
             entries = {name: made.kind if name == KIND else made.values[name] for name in entries}
         self._values |= {f"{place.path}.{name}": value for name, value in entries.items()}
+
+    def _of_instance(self, known: Mapping[str, Field] | None, name: str, value: Any) -> Any:
+        """`value` of an instance as the scene has it, where its kind is known."""
+        return value if known is None or name == KIND else self._checked(known[name], value)
 
     def _of_known_columns(self, item: Field, value: Any) -> Any:
         """`value` less what its records have beside the columns of `item`, if it is a list of records."""

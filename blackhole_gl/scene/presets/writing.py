@@ -10,7 +10,7 @@ import tomlkit.items
 
 from ... import VERSION
 from ...output import files
-from .. import Scene, catalogue, fields, instances
+from .. import Scene, catalogue, fields, instances, lengths
 from ..catalogue import KIND, SWITCH
 from ..schema import Field, Value
 from ..sections import declared
@@ -28,13 +28,16 @@ def dumps(
     time: float | None = None,
     paused: bool = False,
     folder: Path | None = None,
+    unit: str = "r_s",
 ) -> str:
     """`scene` as a preset's TOML: what differs from the defaults, or with `full` everything, units as comments; of instances always the kind.
 
-    Reading it gives back exactly `scene`; from a file in `folder`, too, which paths below it are made relative to. With the `time` (r_s/c) it gives
-    back the picture.
+    Lengths and times are in `unit`, one of `lengths.UNITS`. Reading it gives back exactly `scene`; from a file in `folder`, too, which paths below it are made
+    relative to. With the `time` (r_s/c) it gives back the picture.
     """
-    return _dump(scene, full, {"title": title, "description": description, "group": group, **_moment(time, paused)}, folder)
+    moment = _moment(None if time is None else time * lengths.factor(unit), paused)
+    stated = {} if unit == "r_s" else {"lengths": unit}
+    return _dump(scene, full, {"title": title, "description": description, "group": group, **stated, **moment}, folder, unit=unit)
 
 
 def picture_text(scene: Scene, time: float, folder: Path | None = None, *, paused: bool = False) -> str:
@@ -59,6 +62,7 @@ def save(
     time: float | None = None,
     paused: bool = False,
     full: bool = False,
+    unit: str = "r_s",
 ) -> Path:
     """Writes `scene` as a preset to `path`, whole or not at all, and returns the path.
 
@@ -71,7 +75,7 @@ def save(
     if group and group not in GROUPS:
         raise PresetError(f"got {group!r}; allowed is one of {', '.join(GROUPS)}", key="group", source=str(path))
     try:
-        text = dumps(scene, full, title=title, description=description, group=group, time=time, paused=paused, folder=path.absolute().parent)
+        text = dumps(scene, full, title=title, description=description, group=group, time=time, paused=paused, folder=path.absolute().parent, unit=unit)
         files.write_whole(path, text.encode("utf-8"))
     except OSError as error:
         raise PresetError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
@@ -80,7 +84,9 @@ def save(
     return path
 
 
-def _dump(scene: Scene, full: bool, about: Mapping[str, str | float | bool], folder: Path | None, idle: Set[str] = frozenset()) -> str:
+def _dump(
+    scene: Scene, full: bool, about: Mapping[str, str | float | bool], folder: Path | None, idle: Set[str] = frozenset(), unit: str = "r_s"
+) -> str:
     document = tomlkit.document()
     for name, said in about.items():
         if said != "":
@@ -92,10 +98,10 @@ def _dump(scene: Scene, full: bool, about: Mapping[str, str | float | bool], fol
                 place.add(part, tomlkit.table())
             place = place[part]
         for name, item in sorted(entries.items(), key=lambda entry: bool(entry[1].columns)):  # in TOML, what stands below [[path]] belongs to it
-            value = scene.get(item.key)
+            value = lengths.in_unit(item, scene.get(item.key), unit)
             written = _written(item, value if folder is None else paths.relative(item, value, folder))
             if full and item.unit:
-                written.comment(item.unit)
+                written.comment(lengths.field_in(item, unit).unit)
             place.add(name, written)
     return tomlkit.dumps(document)
 
