@@ -27,7 +27,7 @@ def video(
     preset: Presets = None,
     set_: Settings = None,
     any_file: AnyFile = False,
-    path: Annotated[Path | None, Option(help="The flight, a TOML file of keyframes or of a fall. Without it the camera rests and time runs.")] = None,
+    path: Annotated[Path | None, Option(help="The flight: a TOML file, or dive, fly_by, hover, orbit_at_isco. Without it the camera rests.")] = None,
     fps: Annotated[str, Option(help="Frames a second; a fraction such as 30000/1001, too.")] = "30",
     seconds: Annotated[float | None, Option(least=0.0, most=1e5, help="Length of the film.", default="that of the flight")] = None,
     size: Annotated[str, Option(help="Width × height in pixels.")] = "1280x720",
@@ -43,7 +43,8 @@ def video(
     """Draw a film, every frame at its exact time. Started again after whatever stopped it, it goes on with the first frame that is missing."""
     from . import film
 
-    preset = [*(names or ()), *(preset or ())]
+    path = _found(path)
+    preset = [*(names or ()), *(preset or ())] or _presets(path)
     scene = scene_of(preset, set_, any_file)
     made = film.Film(
         flown := _flight(scene, path, time_of(time, preset)),
@@ -83,9 +84,27 @@ def video(
 
 
 def _flight(scene: Scene, path: Path | None, start: float) -> Flight:
-    from .physics import flight
+    from .physics import flight, flight_files
 
-    return flight.Flight(scene, rate=scene.playback.rate, start=start) if path is None else flight.read(path, scene, start)
+    return flight.Flight(scene, rate=scene.playback.rate, start=start) if path is None else flight_files.read(path, scene, start)
+
+
+def _found(path: Path | None) -> Path | None:
+    """The file that `path` means, which may be a shipped flight's name."""
+    if path is None or path.exists():
+        return path
+    from .physics import flight_files
+
+    return flight_files.shipped().get(str(path), path)
+
+
+def _presets(path: Path | None) -> list[str]:
+    """Those that the flight at `path` is made for."""
+    if path is None:
+        return []
+    from .physics import flight_files
+
+    return list(flight_files.presets_of(path))
 
 
 def _fps(text: str) -> Fraction:

@@ -20,6 +20,11 @@ def presets_dir() -> Path:
     return _data_dir("presets")
 
 
+def flights_dir() -> Path:
+    """The folder of the shipped flights."""
+    return presets_dir() / "flights"
+
+
 def assets_dir() -> Path:
     """The folder of derived tables and data."""
     return _data_dir("assets")

@@ -2,7 +2,7 @@
 
     python -m studies.dive --out build/dive [--frames 600] [--size 320x180] [--rounds 4]
 
-The fall is that of examples/flights/dive.toml, from 30 r_s to 0.1 r_s. What a path explains goes evenly from frame to frame: a difference that stands out from
+The fall is that of presets/flights/dive.toml, from 30 r_s to 0.1 r_s. What a path explains goes evenly from frame to frame: a difference that stands out from
 those before and after it is a jump. Two frames may differ by much and yet not jump: then the moment between them differs from both by less. So pairs that
 stand out are halved, again and again; a jump stays what it is in one of the halves.
 """
@@ -18,16 +18,15 @@ import numpy as np
 
 from blackhole_gl.output import png
 from blackhole_gl.output.files import write_whole
-from blackhole_gl.physics import flight
+from blackhole_gl.physics import flight_files
+from blackhole_gl.physics.flight import Flight
 from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from studies import pictures
 from studies.flip import flip
 
-FLIGHT = Path(__file__).resolve().parents[1] / "examples" / "flights" / "dive.toml"
-PRESETS = ("schwarzschild",)
-SETTINGS = {"camera.inclination_deg": 85.0}
+FLIGHT = "dive"
 
 STANDS_OUT = 1.5
 """A difference larger than this many times the median of those about it stands out."""
@@ -83,17 +82,18 @@ class Pair:
         return self.differ > LEAST and self.halved > JUMPS * self.differ
 
 
-def dive() -> flight.Flight:
+def dive() -> Flight:
     """The flight."""
-    return flight.read(FLIGHT, presets.load(PRESETS).with_values(SETTINGS))
+    path = flight_files.shipped()[FLIGHT]
+    return flight_files.read(path, presets.load(list(flight_files.presets_of(path))))
 
 
-def moments(flown: flight.Flight, frames: int) -> np.ndarray:
+def moments(flown: Flight, frames: int) -> np.ndarray:
     """Seconds of so many frames, float64 (frames,), from the first to the last moment."""
     return np.linspace(0.0, flown.seconds, frames)
 
 
-def at(renderer: Renderer, flown: flight.Flight, seconds: float, size: tuple[int, int]) -> Seen:
+def at(renderer: Renderer, flown: Flight, seconds: float, size: tuple[int, int]) -> Seen:
     """The frame at `seconds`, every pixel with a ray of its own."""
     moment = flown.at(seconds)
     renderer.render(moment.scene, moment.time, size)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import tomlkit
 
 from ..output.files import write_whole
-from ..physics import flight
+from ..physics import flight_files
 from ..physics.flight import Flight, Keyframe, Moment
 from ..scene import SceneError, fields
 from .camera_control import Motion
@@ -24,6 +24,12 @@ _ENDLESS_S = 60.0
 _LEAST_APART_S = 0.05
 """A key that is taken nearer than this to another takes its place."""
 
+EXPLAINED = {
+    "post.labels": True,
+    **{f"post.show_{name}": True for name in ("horizon", "ergosphere", "photon_shell", "isco", "sky_grid")},
+}
+"""What a run that explains shows besides: names, and lines where light paths put them."""
+
 _TAKEN = tuple(f"camera.{name}" for name in ("distance", "inclination_deg", "azimuth_deg", "yaw_deg", "pitch_deg", "roll_deg", "fov_deg"))
 
 
@@ -36,6 +42,7 @@ class Timeline:
         seconds: of its film.
         plays: whether they run.
         loops: whether it begins again at its end.
+        explains: whether what is seen is named and told of.
         moment: what the flight was like there; None before it has played.
         file: where it lies, or is to be saved.
     """
@@ -44,6 +51,7 @@ class Timeline:
     seconds: float = 0.0
     plays: bool = False
     loops: bool = False
+    explains: bool = False
     moment: Moment | None = None
     file: str = "flight.toml"
 
@@ -54,17 +62,29 @@ class Timeline:
             return 0.0
         return self.flight.seconds if math.isfinite(self.flight.seconds) else _ENDLESS_S
 
+    @property
+    def note(self) -> str:
+        """What is told of what is seen; empty but in a run that explains."""
+        return self.flight.note_at(self.seconds) if self.flight is not None and self.explains else ""
+
 
 def open_file(state: WindowState, path: str) -> None:
     """Takes the flight in the file at `path` through the scene of now; what is wrong with it becomes a notice."""
     try:
-        found = flight.read(Path(path), state.scene, state.time)
+        found = flight_files.read(Path(path), state.scene, state.time)
     except SceneError as error:
         state.complain(str(error))
         return
-    state.timeline = Timeline(found, file=path, loops=state.timeline.loops)
+    state.timeline = Timeline(found, file=path, loops=state.timeline.loops, explains=state.timeline.explains)
     state.say(f"Flight: {found.title or Path(path).name}")
     seek(state, 0.0)
+
+
+def explain(state: WindowState, explains: bool) -> None:
+    """Has what is seen named and told of, or not."""
+    state.timeline = replace(state.timeline, explains=explains)
+    if state.timeline.moment is not None:
+        seek(state, state.timeline.seconds)
 
 
 def play(state: WindowState) -> None:
@@ -100,7 +120,8 @@ def seek(state: WindowState, seconds: float) -> None:
         state.complain(str(error))
         return
     # Not `state.show`, which keeps cameras out of holes: a fall goes in.
-    state.scene, state.motion, state.time = moment.scene, Motion.at(moment.scene), moment.time
+    scene = moment.scene.with_values(EXPLAINED) if now.explains else moment.scene
+    state.scene, state.motion, state.time = scene, Motion.at(scene), moment.time
     state.timeline = replace(now, seconds=seconds, moment=moment)
 
 

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from imgui_bundle import hello_imgui, imgui
 
-from . import text_fields, theme, timeline, tool_window
+from . import shipped_flights, text_fields, theme, timeline, tool_window
 from .state import WindowState
 
 TITLE = "Flight"
-_WIDTH_EM = 34.0
+_WIDTH_EM = 42.0
 
 
 def draw(state: WindowState) -> None:
@@ -18,7 +18,7 @@ def draw(state: WindowState) -> None:
     if not state.show_timeline:
         return
     em, view = hello_imgui.em_size(), imgui.get_main_viewport()
-    imgui.set_next_window_pos((view.pos.x + 2.0 * em, view.pos.y + view.size.y - 14.0 * em), imgui.Cond_.first_use_ever.value)
+    imgui.set_next_window_pos((view.pos.x + 2.0 * em, view.pos.y + view.size.y - 16.0 * em), imgui.Cond_.first_use_ever.value)
     imgui.set_next_window_size((_WIDTH_EM * em, 0.0), imgui.Cond_.first_use_ever.value)
     state.show_timeline = tool_window.draw(TITLE, lambda: _contents(state))
     if not state.show_timeline:
@@ -26,6 +26,7 @@ def draw(state: WindowState) -> None:
 
 
 def _contents(state: WindowState) -> None:
+    _shipped(state)
     _file(state)
     now = state.timeline
     imgui.begin_disabled(now.flight is None)
@@ -35,6 +36,11 @@ def _contents(state: WindowState) -> None:
     _, loops = imgui.checkbox("again and again##flight", state.timeline.loops)
     state.timeline = replace(state.timeline, loops=loops)
     imgui.end_disabled()
+    imgui.same_line()
+    explained, explains = imgui.checkbox("explained##flight", state.timeline.explains)
+    imgui.set_item_tooltip("Names what is seen, and tells of it: for a second run.")
+    if explained:
+        timeline.explain(state, explains)
     _keys(state)
     imgui.set_next_item_width(-1.0)
     length = max(state.timeline.length, _free_length(state))
@@ -45,6 +51,15 @@ def _contents(state: WindowState) -> None:
             timeline.seek(state, seconds)
     told = timeline.reading(now.moment) or _count(state)
     imgui.text_colored(theme.QUIET, told)
+
+
+def _shipped(state: WindowState) -> None:
+    """The shipped flights, each a click away."""
+    for number, (name, title) in enumerate(shipped_flights.titles().items()):
+        if number:
+            imgui.same_line()
+        if imgui.button(f"{title}###flight {name}"):
+            shipped_flights.fly(state, name)
 
 
 def _file(state: WindowState) -> None:

@@ -21,6 +21,7 @@ from . import (
     bar,
     commands,
     file_commands,
+    flight_overlay,
     gamepad,
     glfw_window,
     help_window,
@@ -199,6 +200,7 @@ class Window:
         self.path_view = PathView()
         self._mouse_values = MouseValues()
         self._labels = LabelOverlay()
+        self._flown = flight_overlay.FlightOverlay()
         self._picking = Picking()
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
@@ -276,7 +278,10 @@ class Window:
         figures = overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
         directions = overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
         self._mouse_values.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
-        self._labels.draw(state, (view.left, view.top), (view.width, view.height), filter(None, (figures, directions)))
+        beside = max((box[2] - box[0] for box in (figures, directions) if box), default=0.0) + 1.2 * em
+        right_top = view.left + view.width - 0.6 * em, (directions[3] if directions else view.top) + 0.6 * em
+        flown = self._flown.draw(state, right_top, (view.left + 0.5 * view.width, view.top + 0.6 * em), max(view.width - 2.0 * beside, 12.0 * em))
+        self._labels.draw(state, (view.left, view.top), (view.width, view.height), filter(None, (figures, directions, *flown)))
         self._picking.frame(state, (view.left, view.top), (view.width, view.height))
         colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
         foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))

@@ -1,61 +1,28 @@
-"""Flights: a scene at every second of a film, by keyframes and, if one likes, on a way that gravity decides.
-
-A flight is a TOML file::
-
-    title = "Round the hole and up"
-    rate = 4.0                      # scene time, r_s/c, that passes in one second; the scene's playback.rate when not given
-    [[keys]]
-    at = 0.0                        # seconds of the film
-    camera.inclination_deg = 80     # any number, switch or choice of the scene
-    [[keys]]
-    at = 5.0
-    camera.inclination_deg = 20
+"""Flights: a scene at every second of a film, by keyframes and, if one likes, on a way that gravity decides. Their files: `flight_files`.
 
 Numbers run through their keys on monotone cubics (Fritsch & Carlson 1980): smooth, and never beyond the keys on either side. All else changes at its key.
-
-With a way the camera's place is no matter of keys::
-
-    [way]
-    kind = "rain"                   # falls from rest at infinity; "orbit": a circular geodesic
-    rate = 2.0                      # r_s/c of the traveller's own clock in one second
-    slows = true                    # a fall's rate is that at its beginning, and falls with the radius
-
 The clock of matter that falls like rain is the time of its coordinates (Doran 2000), in which the scene's time then runs, through the horizon, too.
 """
 
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
-from ..scene import Scene, SceneError, Value
+from ..scene import Scene, Value
 from ..shapes import Float
-from ..text_files import TextError, read_text
 from .observer import cos_sin_deg
 from .relativity import horizon_radius, inner_horizon_radius, orbital_frequency, orbital_u_t, zamo_lapse
 from .space_time import space_time
 
 WAYS = ("rain", "orbit")
-_ENTRIES = ("title", "rate", "keys", "way")
-_WAY_ENTRIES = ("kind", "rate", "distance", "slows")
-_DECIDED = {"rain": ("camera.distance", "camera.observer"), "orbit": ("camera.distance", "camera.observer", "camera.azimuth_deg")}
 _FALL_SAMPLES = 4096
 _ABOVE = 1.001  # inner horizons: a fall ends just above
-
-
-class FlightError(SceneError):
-    """A flight that cannot be flown; the text names the file, the entry, what was given and what is allowed."""
-
-    def __init__(self, source: str, message: str):
-        ValueError.__init__(self, f"{source}: {message}")
-        self.key, self.message, self.entry, self.source = "", message, 0, source
 
 
 @dataclass(frozen=True)
@@ -64,6 +31,14 @@ class Keyframe:
 
     at: float
     values: Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class Note:
+    """What is said of what is seen from `at` on, seconds of the film."""
+
+    at: float
+    text: str
 
 
 @dataclass(frozen=True)
@@ -103,6 +78,7 @@ class Flight:
 
     Attributes:
         rate: scene time in r_s/c that passes in one second without a way.
+        notes: in the order of time.
     """
 
     scene: Scene
@@ -111,6 +87,7 @@ class Flight:
     way: Way | None = None
     title: str = ""
     start: float = 0.0
+    notes: tuple[Note, ...] = ()
     _tracks: Mapping[str, _Track] = field(default_factory=dict, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -133,6 +110,10 @@ class Flight:
         if self.way is None:
             return Moment(scene, self.start + self.rate * seconds)
         return self._falling(scene, seconds) if self.way.kind == "rain" else self._orbiting(scene, self.way.rate * seconds)
+
+    def note_at(self, seconds: float) -> str:
+        """What is said there; empty where nothing is."""
+        return next((note.text for note in reversed(self.notes) if note.at <= seconds), "")
 
     def _falling(self, scene: Scene, seconds: float) -> Moment:
         fall = self._fall
@@ -167,100 +148,6 @@ class Flight:
         where = space_time(self.scene)
         low = self.scene.field("camera.distance").low
         return _fall(self._distance, where.observer_spin, self.scene.camera.inclination_deg, low)
-
-
-def read(path: Path, scene: Scene, start: float = 0.0) -> Flight:
-    """The flight in the TOML file at `path` through `scene`, from scene time `start` (r_s/c) on.
-
-    Raises:
-        FlightError: it cannot be read, or has an entry or a value that is not allowed.
-    """
-    try:
-        return parse(read_text(path), scene, str(path), start)
-    except OSError as error:
-        raise FlightError(str(path), f"cannot be read: {error.strerror or error}") from None
-    except TextError as error:
-        raise FlightError(str(path), str(error)) from None
-
-
-def parse(text: str, scene: Scene, source: str = "flight", start: float = 0.0) -> Flight:
-    """The flight in the TOML `text`; as `read`."""
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise FlightError(source, f"not TOML: {error}") from None
-    _refuse_unknown(tables, _ENTRIES, source, "")
-    way = _way(tables["way"], scene, source) if "way" in tables else None
-    keys = _keys(tables.get("keys", []), scene, source, _DECIDED[way.kind] if way else ())
-    if not keys and way is None:
-        raise FlightError(source, "has neither [[keys]] nor a [way]: nothing would move")
-    rate = _number(tables.get("rate", scene.playback.rate), 0.0, 100.0, "rate", source)
-    return Flight(scene, keys, rate, way, str(tables.get("title", "")), start)
-
-
-def _keys(given: Any, scene: Scene, source: str, decided: tuple[str, ...]) -> tuple[Keyframe, ...]:
-    if not isinstance(given, list) or not all(isinstance(entry, dict) for entry in given):
-        raise FlightError(source, "keys: allowed is a [[keys]] for each keyframe")
-    found: list[Keyframe] = []
-    for number, entry in enumerate(given, 1):
-        place = f"[[keys]] {number}"
-        if "at" not in entry:
-            raise FlightError(source, f"{place}: at is missing; allowed is the second of the film that it stands for")
-        at = _number(entry["at"], 0.0, 1e6, f"{place}: at", source)
-        if found and at <= found[-1].at:
-            raise FlightError(source, f"{place}: at: got {at:g}; allowed is more than {found[-1].at:g}, that of the one before")
-        values = {}
-        for key, value in _flat({name: value for name, value in entry.items() if name != "at"}).items():
-            if key in decided:
-                raise FlightError(source, f"{place}: {key} is decided by the [way]; allowed is any other key")
-            try:
-                values[key] = scene.field(key).check(value)
-            except SceneError as error:
-                raise FlightError(source, f"{place}: {error}") from None
-        found.append(Keyframe(at, values))
-    return tuple(found)
-
-
-def _way(given: Any, scene: Scene, source: str) -> Way:
-    if not isinstance(given, dict):
-        raise FlightError(source, "way: allowed is a table [way]")
-    _refuse_unknown(given, _WAY_ENTRIES, source, "[way] ")
-    kind = given.get("kind")
-    if kind not in WAYS:
-        raise FlightError(source, f"[way] kind: got {kind!r}; allowed is one of {', '.join(WAYS)}")
-    rate = _number(given.get("rate", 1.0), 1e-6, 1e4, "[way] rate", source)
-    horizon = space_time(scene).horizon_radius
-    distance = _number(given["distance"], 0.0, 1e4, "[way] distance", source) if "distance" in given else None
-    begins = scene.camera.distance if distance is None else distance
-    if space_time(scene).kind == "flat" or not (horizon < begins < math.inf):
-        raise FlightError(source, f"[way] begins at {begins:g} r_s; allowed is outside the horizon ({horizon:.4g} r_s) of a hole, and not infinite")
-    slows = given.get("slows", False)
-    if not isinstance(slows, bool) or (slows and kind != "rain"):
-        raise FlightError(source, f"[way] slows: got {slows!r}; allowed is true or false, and true for a fall, whose radius changes")
-    return Way(kind, rate, distance, slows)
-
-
-def _refuse_unknown(given: Mapping[str, Any], known: tuple[str, ...], source: str, place: str) -> None:
-    for name in given:
-        if name not in known:
-            raise FlightError(source, f"{place}{name}: no such entry; allowed are {', '.join(known)}")
-
-
-def _number(value: Any, low: float, high: float, name: str, source: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-        raise FlightError(source, f"{name}: got {value!r}; allowed is {low:g} to {high:g}")
-    return float(value)
-
-
-def _flat(table: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Nested tables as dotted keys."""
-    found: dict[str, Any] = {}
-    for name, value in table.items():
-        if isinstance(value, dict):
-            found |= _flat(value, f"{before}{name}.")
-        else:
-            found[f"{before}{name}"] = value
-    return found
 
 
 def _keyed(keys: tuple[Keyframe, ...]) -> list[str]:

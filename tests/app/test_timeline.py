@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from blackhole_gl.app import timeline
+from blackhole_gl.app import flight_inset, flight_overlay, shipped_flights, timeline
 from blackhole_gl.app.commands import Hand, advance
 from blackhole_gl.app.state import WindowState
 from blackhole_gl.scene import presets
@@ -103,3 +103,33 @@ def test_mistakes_are_notices(state: WindowState, tmp_path: Path) -> None:
 def test_a_flight_that_nothing_ends_has_a_minute_of_slider(state: WindowState, tmp_path: Path) -> None:
     opened(state, tmp_path, "[way]\nkind = 'orbit'\ndistance = 8.0\n")
     assert state.timeline.flight.seconds == math.inf and state.timeline.length == 60.0
+
+
+def test_a_shipped_flight_brings_its_scene_and_is_explained_in_a_second_run(state: WindowState) -> None:
+    state.change({"post.show_plane_grid": True})
+    shipped_flights.fly(state, "dive")
+    assert state.timeline.plays and state.scene.hole.spin == 0.0 and not state.scene.post.show_plane_grid and state.chosen["physics"] == "schwarzschild"
+    timeline.seek(state, 18.0)
+    assert not state.timeline.note and not state.scene.post.labels
+    assert flight_overlay.clocks(state.timeline.moment)[1] == ("far away", "never")
+    timeline.explain(state, True)
+    assert "horizon" in state.timeline.note and state.scene.post.labels and state.scene.post.show_horizon
+    timeline.explain(state, False)
+    assert not state.timeline.note and not state.scene.post.labels
+
+
+def test_the_map_of_a_flight_has_its_way_and_the_hole(state: WindowState) -> None:
+    shipped_flights.fly(state, "orbit_at_isco")
+    shown = flight_inset.of(state.timeline.flight)
+    assert shown.hole == pytest.approx(0.5 / shown.reach) and shown.reach == pytest.approx(1.1 * 3.0, rel=0.1)
+    timeline.seek(state, 3.0)
+    place = shown.place(state.scene)
+    assert min(math.dist(place, point) for point in shown.way) < 0.05
+    timeline.open_file(state, "")
+    shipped_flights.fly(state, "dive")
+    way = flight_inset.of(state.timeline.flight).way
+    assert math.dist(way[-1], (0.5, 0.5)) < 0.01 < math.dist(way[0], (0.5, 0.5))
+
+
+def test_every_shipped_flight_has_a_title() -> None:
+    assert {"dive", "fly_by", "hover", "orbit_at_isco"} <= shipped_flights.titles().keys()

@@ -16,7 +16,7 @@ import pytest
 
 from blackhole_gl import film, film_cluster, films
 from blackhole_gl.output import png
-from blackhole_gl.physics import flight
+from blackhole_gl.physics import flight_files
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
@@ -27,7 +27,7 @@ PATH = "rate = 4.0\n[[keys]]\nat = 0\ncamera.azimuth_deg = 0.0\n[[keys]]\nat = 1
 
 @pytest.fixture(scope="module")
 def made() -> film.Film:
-    return film.Film(flight.parse(PATH, presets.load(["kerr"])), Fraction(8), 9, SIZE)
+    return film.Film(flight_files.parse(PATH, presets.load(["kerr"])), Fraction(8), 9, SIZE)
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from blackhole_gl.physics import flight
+from blackhole_gl.physics import flight_files
 from blackhole_gl.scene import Scene, presets
 
-ROOT = Path(__file__).resolve().parents[2]
 STILL = Scene().with_values({"rays.model": "kerr", "hole.spin": 0.9, "camera.distance": 20.0})
 
 
@@ -22,7 +21,7 @@ def keys(*entries: str) -> str:
 
 def test_numbers_are_smooth_between_keys_and_never_beyond_them() -> None:
     given = {0.0: 30.0, 1.0: 10.0, 1.5: 9.0, 4.0: 9.0, 5.0: 14.0}
-    flown = flight.parse(keys(*(f"at = {at}\ncamera.distance = {value}" for at, value in given.items())), STILL)
+    flown = flight_files.parse(keys(*(f"at = {at}\ncamera.distance = {value}" for at, value in given.items())), STILL)
     seconds = np.linspace(0.0, 5.0, 501)
     found = np.array([flown.at(float(at)).scene.camera.distance for at in seconds])
     for at, value in given.items():
@@ -34,13 +33,13 @@ def test_numbers_are_smooth_between_keys_and_never_beyond_them() -> None:
 
 
 def test_switches_and_choices_change_at_their_keys() -> None:
-    flown = flight.parse(keys("at = 0\ndisk.enabled = false", "at = 2\ndisk.enabled = true\nrays.orders = 1", "at = 3\nrays.orders = 3"), STILL)
+    flown = flight_files.parse(keys("at = 0\ndisk.enabled = false", "at = 2\ndisk.enabled = true\nrays.orders = 1", "at = 3\nrays.orders = 3"), STILL)
     assert [flown.at(at).scene.disk.enabled for at in (0.0, 1.99, 2.0, 5.0)] == [False, False, True, True]
     assert [flown.at(at).scene.rays.orders for at in (2.0, 2.99, 3.0)] == [1, 1, 3]
 
 
 def test_scene_time_runs_by_the_rate() -> None:
-    flown = flight.parse("rate = 2.5\n" + keys("at = 0\npost.exposure = 0.0", "at = 4\npost.exposure = 1.0"), STILL, start=10.0)
+    flown = flight_files.parse("rate = 2.5\n" + keys("at = 0\npost.exposure = 0.0", "at = 4\npost.exposure = 1.0"), STILL, start=10.0)
     assert [flown.at(at).time for at in (0.0, 2.0)] == [10.0, 15.0]
 
 
@@ -49,7 +48,7 @@ def test_a_fall_takes_the_time_that_its_geodesic_does(spin: float, inclination: 
     """dr/dτ and dt/dτ of the fall from rest at infinity with L = 0, Q = 0, by quadrature (M = 1)."""
     model = "kerr" if spin else "schwarzschild"
     scene = STILL.with_values({"rays.model": model, "hole.spin": spin, "camera.inclination_deg": inclination, "camera.distance": 15.0})
-    flown = flight.parse('[way]\nkind = "rain"\n', scene)
+    flown = flight_files.parse('[way]\nkind = "rain"\n', scene)
     for proper in (5.0, 20.0, 30.0):
         moment = flown.at(proper)
         r, cosine2 = 2.0 * moment.scene.camera.distance, math.cos(math.radians(inclination)) ** 2
@@ -70,14 +69,14 @@ def test_a_fall_takes_the_time_that_its_geodesic_does(spin: float, inclination: 
 
 def test_rain_in_schwarzschilds_space_has_the_speed_of_escape() -> None:
     scene = STILL.with_values({"rays.model": "schwarzschild", "hole.spin": 0.0})
-    moment = flight.parse('[way]\nkind = "rain"\ndistance = 4.0', scene).at(1.0)
+    moment = flight_files.parse('[way]\nkind = "rain"\ndistance = 4.0', scene).at(1.0)
     assert moment.speed == pytest.approx(moment.scene.camera.distance**-0.5, rel=1e-6)
 
 
 def test_a_fall_that_slows_goes_by_roots_of_the_radius() -> None:
     """Without spin dτ = −√r dr: at a rate of r/r₀ the film's seconds are 2 r₀ (√r₀ − √r)."""
     scene = STILL.with_values({"rays.model": "schwarzschild", "hole.spin": 0.0})
-    flown = flight.parse('[way]\nkind = "rain"\ndistance = 16.0\nrate = 8.0\nslows = true', scene)
+    flown = flight_files.parse('[way]\nkind = "rain"\ndistance = 16.0\nrate = 8.0\nslows = true', scene)
     for r in (9.0, 1.0, 0.25):
         moment = flown.at(2.0 * 16.0 * (4.0 - math.sqrt(r)) / 8.0)
         assert moment.scene.camera.distance == pytest.approx(r, rel=1e-4)
@@ -86,7 +85,7 @@ def test_a_fall_that_slows_goes_by_roots_of_the_radius() -> None:
 
 
 def test_an_orbit_turns_by_keplers_law_and_its_clock_is_slow() -> None:
-    flown = flight.parse('[way]\nkind = "orbit"\nrate = 2.0\ndistance = 6.0', STILL.with_values({"hole.spin": 0.0, "rays.model": "schwarzschild"}))
+    flown = flight_files.parse('[way]\nkind = "orbit"\nrate = 2.0\ndistance = 6.0', STILL.with_values({"hole.spin": 0.0, "rays.model": "schwarzschild"}))
     moment = flown.at(3.0)
     assert moment.proper_time == 6.0 and moment.far_time == pytest.approx(6.0 / math.sqrt(1.0 - 1.5 / 6.0))
     assert moment.scene.camera.azimuth_deg == pytest.approx(math.degrees(math.sqrt(0.5 / 6.0**3) * moment.far_time))
@@ -96,7 +95,7 @@ def test_an_orbit_turns_by_keplers_law_and_its_clock_is_slow() -> None:
 
 
 MISTAKES = {
-    "nothing = 1": "nothing: no such entry; allowed are title, rate, keys, way",
+    "nothing = 1": "nothing: no such entry; allowed are title, rate, keys, way, presets, notes",
     "rate = 1.0": "neither [[keys]] nor a [way]",
     "rate = true\n[way]\nkind = 'orbit'": "rate: got True; allowed is 0 to 100",
     "x = ": "not TOML",
@@ -109,26 +108,29 @@ MISTAKES = {
     "[way]\nkind = 'orbit'\nslows = true": "[way] slows: got True; allowed is true or false, and true for a fall",
     "[way]\nkind = 'rain'\ndistance = 0.2": "[way] begins at 0.2 r_s; allowed is outside the horizon",
     "[way]\nkind = 'rain'\n" + keys("at = 0\ncamera.distance = 3"): "camera.distance is decided by the [way]",
+    "notes = 3\n" + keys("at = 0"): "[[notes]] 1: allowed are at",
+    "[[notes]]\nat = 1\n" + keys("at = 0"): "[[notes]] 1: allowed are at, the second of the film that it begins at, and text",
     "keys = 3": "keys: allowed is a [[keys]] for each keyframe",
 }
 
 
 @pytest.mark.parametrize("text", MISTAKES)
 def test_mistakes_are_told(text: str) -> None:
-    with pytest.raises(flight.FlightError) as told:
-        flight.parse(text, STILL, "dive.toml")
+    with pytest.raises(flight_files.FlightError) as told:
+        flight_files.parse(text, STILL, "dive.toml")
     assert str(told.value).startswith("dive.toml: ") and MISTAKES[text] in str(told.value)
 
 
 def test_a_flight_that_is_not_there_is_told(tmp_path: Path) -> None:
-    with pytest.raises(flight.FlightError, match="cannot be read: No such file"):
-        flight.read(tmp_path / "none.toml", STILL)
+    with pytest.raises(flight_files.FlightError, match="cannot be read: No such file"):
+        flight_files.read(tmp_path / "none.toml", STILL)
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "examples" / "flights").glob("*.toml")), ids=lambda path: path.stem)
-def test_the_examples_fly(path: Path) -> None:
-    scene = presets.load(["kerr"], {"camera.inclination_deg": 90.0})
-    flown = flight.read(path, scene)
-    assert flown.title
+@pytest.mark.parametrize("name", flight_files.shipped())
+def test_the_shipped_flights_fly(name: str) -> None:
+    path = flight_files.shipped()[name]
+    flown = flight_files.read(path, presets.load(list(flight_files.presets_of(path))))
+    assert flown.title and flown.notes
+    assert flown.note_at(0.0) == flown.notes[0].text and flown.note_at(1e6) == flown.notes[-1].text
     for share in np.linspace(0.0, 1.0, 7):
         flown.at(share * min(flown.seconds, 20.0))

@@ -96,6 +96,8 @@ def _of_scenes() -> Iterator[Wanted]:
         yield from ((path, name, made, {}) for path in BEAM)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
         in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined and path != "star_layer.frag")]
+        if scene.post.show_sky_grid:
+            yield from (("shade_overlays.frag", name, made, {"OVERLAY_SKY": 1, "HIT_MAP_REFINED": refined}) for refined in (0, 1))
         yield from ((path, f"{name}, in blocks", made, {"RAYS_IN_BLOCKS": 1}) for path in in_blocks)
 
 
@@ -109,6 +111,8 @@ def _readers(made: Plan) -> Iterator[tuple[str, int]]:
         yield from (("shade_sky.frag", refined) for refined in (0, 1, 2))
     if stars_a_pixel(made.scene):
         yield from (("star_layer.frag", refined) for refined in (0, 1))
+    if made.scene.post.show_horizon or made.scene.post.lines_in_plane:
+        yield from (("shade_overlays.frag", refined) for refined in (0, 1))
 
 
 def _scenes() -> Iterator[tuple[str, Scene]]:
