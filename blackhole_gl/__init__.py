@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .api import (
         Fate,
+        LightCurve,
         Plan,
         Rays,
         Renderer,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
         gpus,
         hits,
         isoradials,
+        lightcurve,
         load,
         plan,
         presets,
@@ -47,8 +49,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 VERSION = "0.1.0"
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials", "load", "plan",
-    "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
+    "Fate", "LightCurve", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials",
+    "lightcurve", "load", "plan", "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
 ]  # fmt: skip
 
 

@@ -24,7 +24,9 @@ from numpy.typing import ArrayLike
 from . import layers, listed_rays
 from .gl_thread import GlThread
 from .glsl.declared import Fate
+from .measure import light_curve
 from .measure import visibilities as interferometry
+from .measure.light_curve import LightCurve
 from .measure.visibilities import Visibilities
 from .output import png
 from .physics.screen_curves import ScreenCurve, critical_curve, isoradials
@@ -57,6 +59,8 @@ class Rays:
             (T/T_peak)^4; 0 beside the disk, NaN without a crossing.
         lam: (…): L_z/E in M of the photon that arrives; NaN where there is none.
         steps: int (…): steps that the ray took.
+        delay: (…, 3): how long light is under way from each crossing to the camera, in r_s/c of who is far away; to a camera at infinity, less r + ln r of it
+            in r_s. NaN without a crossing, and from ray models that do not tell: `kerr` and `schwarzschild_binet` do.
     """
 
     fate: Int[np.ndarray, "*rays"]
@@ -66,6 +70,7 @@ class Rays:
     intensity: Float[np.ndarray, "*rays 3"]
     lam: Float[np.ndarray, "*rays"]
     steps: Int[np.ndarray, "*rays"]
+    delay: Float[np.ndarray, "*rays 3"]
 
 
 class Renderer:
@@ -111,6 +116,13 @@ class Renderer:
     def hits(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
         """As the function `hits`."""
         return self._traced(scene, listed_rays.pixel_rays(scene, _size(size)))
+
+    def lightcurve(self, scene: Scene, times: ArrayLike | None = None, size: Sequence[SupportsIndex] = (320, 180)) -> LightCurve:
+        """As the function `lightcurve`."""
+        when = light_curve.times(scene, 96) if times is None else np.atleast_1d(np.asarray(times, float))
+        if when.ndim != 1 or not np.isfinite(when).all():
+            raise ValueError("times: allowed is a list of finite numbers, in r_s/c")
+        return self._thread.call(light_curve.measure, scene, when, _size(size))
 
     def close(self) -> None:
         """Gives back all that it holds; it cannot be used any more."""
@@ -190,6 +202,17 @@ def hits(scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
     return _shared.hits(scene, size)
 
 
+def lightcurve(scene: Scene, times: ArrayLike | None = None, size: Sequence[SupportsIndex] = (320, 180)) -> LightCurve:
+    """The light of the whole picture, without the sky, at scene times in r_s/c: those of one turn of the hot spot, or of what else moves, when None.
+
+    With ``rays.light_travel`` each part of the picture is as late as its light arrives.
+
+    Raises:
+        ValueError, SceneError, ContextError: as in `render`; times that are not finite; a view, whose colours are no light.
+    """
+    return _shared.lightcurve(scene, times, size)
+
+
 def plan(scene: Scene) -> Plan:
     """How the rays of `scene` are traced, and why: method, steps, reasons and warnings.
 
@@ -249,7 +272,7 @@ def save(
     lengths: str = "r_s",
 ) -> Path:
     """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
-    ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g.
+    ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay.
 
     Args:
         lengths: unit of all lengths in a preset, ``r_s`` or ``M``; `load` reads both.
@@ -367,6 +390,7 @@ def _as_rays(scene: Scene, found: listed_rays.TracedRays) -> Rays:
         intensity=listed_rays.intensities(scene, found),
         lam=found.lambda_,
         steps=found.steps,
+        delay=found.crossing_delay,
     )
 
 
@@ -387,6 +411,6 @@ Scene.as_png = _as_png
 _shared = Renderer()
 
 __all__ = [
-    "Fate", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials", "load", "plan",
-    "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
+    "Fate", "LightCurve", "Plan", "Rays", "Renderer", "Scene", "SceneError", "ScreenCurve", "Visibilities", "critical_curve", "gpus", "hits", "isoradials",
+    "lightcurve", "load", "plan", "presets", "radiance", "render", "save", "save_sky", "show", "trace", "visibilities",
 ]  # fmt: skip

@@ -1,5 +1,5 @@
-"""The command line: ``blackhole-gl`` with view (the default), render, video, trace, curve, visibilities, profile, polarization, ring, plan, bench, check,
-desktop and presets."""
+"""The command line: ``blackhole-gl`` with view (the default), render, video, trace, curve, visibilities, profile, lightcurve, polarization, ring, plan, bench,
+check, desktop and presets."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .films import video
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
 from .output.progress import Progress
-from .research import curve, polarization, profile, ring, trace, visibilities
+from .research import curve, lightcurve, polarization, profile, ring, trace, visibilities
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 
@@ -301,6 +301,6 @@ PROGRAM = Program(
     "blackhole-gl",
     "Black holes in real time, with an error bar. Without a command: view.",
     VERSION,
-    (view, render, video, trace, curve, visibilities, profile, polarization, ring, plan, bench, check, desktop, presets),
+    (view, render, video, trace, curve, visibilities, profile, lightcurve, polarization, ring, plan, bench, check, desktop, presets),
 )
 COMMANDS = tuple(command.__name__ for command in PROGRAM.commands)

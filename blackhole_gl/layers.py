@@ -38,6 +38,7 @@ class Layers:
         order: of the crossing: 0 direct, 1 first ring, 2 second ring; −1 without.
         r, phi: of the crossing, in r_s and radians.
         g: E_infinity/E_emitter of the matter there.
+        delay: of its light on the way to the camera, in r_s/c (`listed_rays.TracedRays.crossing_delay`); NaN also for ray models that do not tell.
     """
 
     radiance: Float[np.ndarray, "height width 3"]
@@ -46,6 +47,7 @@ class Layers:
     r: Float[np.ndarray, "height width"]
     phi: Float[np.ndarray, "height width"]
     g: Float[np.ndarray, "height width"]
+    delay: Float[np.ndarray, "height width"]
 
 
 def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> Layers:
@@ -57,13 +59,15 @@ def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int
     light = renderer.still_radiance(scene, time, size, samples)
     listed = listed_rays.pixel_rays(scene, size).reshape(-1, 2)
     found = [listed_rays.trace_by_shader(renderer, scene, listed[first : first + _RAYS_AT_ONCE]) for first in range(0, len(listed), _RAYS_AT_ONCE)]
-    fate, r, phi, g = (np.concatenate([getattr(part, name) for part in found]) for name in ("fate", "crossing_r", "crossing_phi", "crossing_g"))
+    names = ("fate", "crossing_r", "crossing_phi", "crossing_g", "crossing_delay")
+    fate, r, phi, g, delay = (np.concatenate([getattr(part, name) for part in found]) for name in names)
     made = plan(scene)
     with np.errstate(invalid="ignore"):
         shows = (r >= made.disk_edge) & (r <= made.disk_outer) & scene.disk.enabled
     shows &= np.arange(r.shape[1]) < made.orders
     order = np.where(shows.any(axis=1), np.argmax(shows, axis=1), -1)
-    first = [np.where(order < 0, np.nan, np.take_along_axis(values, np.maximum(order, 0)[:, None], 1)[:, 0]).astype(np.float32) for values in (r, phi, g)]
+    taken = (np.take_along_axis(values, np.maximum(order, 0)[:, None], 1)[:, 0] for values in (r, phi, g, delay))
+    first = [np.where(order < 0, np.nan, values).astype(np.float32) for values in taken]
     shape = size[1], size[0]
     return Layers(light, *(values.reshape(shape) for values in (fate.astype(np.int32), order.astype(np.int32), *first)))
 

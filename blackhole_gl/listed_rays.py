@@ -38,7 +38,7 @@ def _numbered(columns: Iterable[str]) -> list[str]:
 
 _HEADER = [
     *("fate", "theta", "phi", "steps", "evaluations", *_numbered(_AT_CROSSINGS), "lambda", *_numbered(_MOMENTA), "energy"),
-    *_numbered(["intensity"]),
+    *_numbered(["intensity"]), *_numbered(["t"]),
 ]  # fmt: skip
 
 
@@ -56,6 +56,8 @@ class TracedRays:
         crossing_theta: (N, 3) polar angle in radians.
         crossing_k_r, crossing_k_theta: (N, 3) the covariant momentum of the photon that arrives, in Boyer–Lindquist coordinates and units
             of its energy at infinity with M = 1; NaN also for ray models whose rays are no light in any metric.
+        crossing_delay: (N, 3) how long light is under way from there to the camera, in r_s/c of who is far away; to a camera at infinity, less r + ln r of it
+            in r_s. NaN for ray models that do not tell.
         energy: (N,) E_infinity/E_camera of the photon that arrives: the inverse of the shift that the camera's place and motion give to the sky's light.
     """
 
@@ -71,6 +73,7 @@ class TracedRays:
     crossing_k_r: Float[np.ndarray, "N 3"]
     crossing_k_theta: Float[np.ndarray, "N 3"]
     energy: Float[np.ndarray, " N"]
+    crossing_delay: Float[np.ndarray, "N 3"]
 
 
 def columns(scene: Scene) -> tuple[str, str]:
@@ -131,6 +134,7 @@ def trace_by_shader(renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N
         momentum[..., 0],
         momentum[..., 1],
         observer.observe(ray_plan.scene).energies(local),
+        np.full(r.shape, np.nan) if hits.delay is None else hits.delay.astype(float),
     )
 
 
@@ -167,8 +171,9 @@ def trace_by_reference(scene: Scene, rays: Float[np.ndarray, "N 2"]) -> TracedRa
     direction = np.where((found.fate == 1)[:, None], found.direction, np.nan)
     plane = found.crossings.of(1) if disk.tilt_deg else found.equatorial
     g = _tilted_shift(plane, found.lambda_, scene, disk) if disk.tilt_deg else found.g
-    r, phi, g, theta, k_r, k_theta = (np.where(kept, values, np.nan) for values in (plane.r, plane.phi, g, plane.theta, plane.k_r, plane.k_theta))
-    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta, found.energy)
+    found_there = (plane.r, plane.phi, g, plane.theta, plane.k_r, plane.k_theta, plane.delay)
+    r, phi, g, theta, k_r, k_theta, delay = (np.where(kept, values, np.nan) for values in found_there)
+    return TracedRays(found.fate.astype(int), direction, found.steps, found.evaluations, r, phi, g, found.lambda_, theta, k_r, k_theta, found.energy, delay)
 
 
 def _motion(camera: Camera) -> dict[str, Any]:
@@ -197,7 +202,7 @@ def _tilted_shift(plane: reference.Crossings, lam: Float[np.ndarray, " N"], scen
 def unknown(count: int) -> TracedRays:
     """`count` rays of which nothing is known."""
     nothing, none, number = np.full((count, _CROSSINGS), np.nan), np.zeros(count, int), np.full(count, np.nan)
-    return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing, number)
+    return TracedRays(none, np.full((count, 3), np.nan), none, none, nothing, nothing, nothing, number, nothing, nothing, nothing, number, nothing)
 
 
 def intensities(scene: Scene, rays: TracedRays) -> Float[np.ndarray, "N 3"]:
@@ -215,10 +220,11 @@ def intensities(scene: Scene, rays: TracedRays) -> Float[np.ndarray, "N 3"]:
 
 
 def in_unit(rays: TracedRays, unit: str) -> TracedRays:
-    """`rays` with all lengths in `unit`, one of `lengths.UNITS`: radii, and λ and k_θ, which are momenta times lengths."""
+    """`rays` with all lengths in `unit`, one of `lengths.UNITS`: radii, times (of r_s/c or M), and λ and k_θ, which are momenta times lengths."""
     own = lengths.factor(unit)  # of r_s, in which radii are; momenta are in M
     momenta = own / lengths.factor("M")
-    return replace(rays, crossing_r=own * rays.crossing_r, lambda_=momenta * rays.lambda_, crossing_k_theta=momenta * rays.crossing_k_theta)
+    lengths_and_times = {"crossing_r": own * rays.crossing_r, "crossing_delay": own * rays.crossing_delay}
+    return replace(rays, **lengths_and_times, lambda_=momenta * rays.lambda_, crossing_k_theta=momenta * rays.crossing_k_theta)
 
 
 def write(path: Path, scene: Scene, rays: TracedRays, digits: int, listed: NumberList | None = None, unit: str | None = None) -> None:
@@ -237,7 +243,7 @@ def write(path: Path, scene: Scene, rays: TracedRays, digits: int, listed: Numbe
     writer.writerow([*_HEADER, *(listed.names if listed else ())])
     for i, fate in enumerate(rays.fate):
         ends = _texts((theta[i], phi[i]), digits)
-        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i), rays.energy[i], *intensity[i]), digits)
+        there = _texts((*_in_turn(at_crossings, i), rays.lambda_[i], *_in_turn(momenta, i), rays.energy[i], *intensity[i], *rays.crossing_delay[i]), digits)
         writer.writerow([FATES[fate], *ends, rays.steps[i], rays.evaluations[i], *there, *(listed.texts[i] if listed else ())])
     write_whole(path, text.getvalue().encode())
 

@@ -1,4 +1,4 @@
-"""The commands that write numbers in place of a picture: trace, curve, visibilities, profile, polarization and ring."""
+"""The commands that write numbers in place of a picture: trace, curve, visibilities, profile, lightcurve, polarization and ring."""
 
 from __future__ import annotations
 
@@ -150,6 +150,41 @@ def profile(
     for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
         print(f"{name:12} {100.0 * share:.3g} % of the light", file=sys.stderr)
     print(f"mean g       {found.mean:.4f}", file=sys.stderr)
+
+
+def lightcurve(
+    out: Annotated[Path, Option("--out", "-o", help="The CSV to write, a row a time. - is standard output.")],
+    names: Named = None,
+    preset: Presets = None,
+    set_: Settings = None,
+    any_file: AnyFile = False,
+    plot: Annotated[Path | None, Option("--plot", help="A PNG of the curve, to be written too.")] = None,
+    count: Annotated[int, Option("--times", least=2, most=100_000, help="Pictures that the curve is made of.")] = 96,
+    start: Annotated[float, Option(help="Scene time in r_s/c of the first.")] = 0.0,
+    duration: Annotated[float, Option(least=0.0, help="In r_s/c; 0: one turn of the hot spot, or else of what moves.")] = 0.0,
+    size: Annotated[str, Option(help="Width × height in pixels of the pictures.")] = "320x180",
+    backend: Backend = "auto",
+) -> None:
+    """Write the light of the whole picture against time, and plot it: with --set rays.light_travel=true each part of it as late as its light arrives."""
+    from .measure import light_curve
+    from .measure.plot import plotted
+    from .output import png
+
+    preset = [*(names or ()), *(preset or ())]
+    scene = scene_of(preset, set_, any_file)
+    refuse_unwritable(out, (".csv", ".txt"), "CSV")
+    if plot is not None:
+        refuse_unwritable(plot, (".png",), "PNG")
+    light_curve.refuse(scene)
+    refuse_unmet(scene, set_)
+    tell_warnings(scene)
+    with Progress("light curve") as progress:
+        found = light_curve.measure(renderer_by(backend), scene, light_curve.times(scene, count, start, duration), size_of(size), progress)
+    write_whole(out, found.as_csv().encode())
+    if plot is not None:
+        png.write(plot, plotted(found.time, {"light over its mean": found.relative}, ("scene time, r_s/c", "")))
+    print(f"brightest    {found.relative.max():.4g} of the mean at {found.time[found.flux.argmax()]:.5g} r_s/c", file=sys.stderr)
+    print(f"faintest     {found.relative.min():.4g} of the mean at {found.time[found.flux.argmin()]:.5g} r_s/c", file=sys.stderr)
 
 
 def polarization(

@@ -50,6 +50,7 @@ out vec4 radiance;
 const float BRIGHTEST = 6.0e4;          // what a half float holds
 const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
 
+#include "common/look_back.glsl"
 #slots disk_layer
 
 // Brightness of light that leaves the matter at its angle to the plane's normal, over its mean; `g` is the whole frequency shift from there to infinity.
@@ -112,6 +113,9 @@ Light pass_disk(Light light, Crossing crossing, DiskLight sent, bool inbound) {
 
 // The same, in the colour of the crossing's order if orders are tinted.
 Light pass_order(Light light, Hits hits, Crossing crossing, int n, DiskLight sent) {
+#if RAYS_LIGHT_TRAVEL
+    look_back(hits.delay[n]);
+#endif
     Light after = pass_disk(light, crossing, light_at_crossing(sent, crossing.point, is_inbound(hits, n)), is_inbound(hits, n));
 #if DISK_ORDERS_SHOWN_TINTED
     const vec3 WEIGHTS = vec3(0.2126, 0.7152, 0.0722);

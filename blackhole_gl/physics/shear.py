@@ -12,7 +12,10 @@ import math
 RENEWAL_PERIOD = 96.0
 """Life of one pattern in r_s/c: 2.1 orbits at r = 3 r_s, 0.3 at 10 r_s."""
 
-_SEEDS = 1024
+_SEEDS, _SEED_STEP = 1024, 389  # odd: a seed returns after 512 lives
+
+DEFINES = {"SHEAR_PERIOD": int(RENEWAL_PERIOD), "SHEAR_SEEDS": _SEEDS, "SHEAR_SEEDS_A_LIFE": 2 * _SEED_STEP}
+"""What shaders know of it, to look back in time: the seed of a pattern's next life is so much more, as a remainder of so many."""
 
 
 def shear_phases(time: float, period: float = RENEWAL_PERIOD) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float]]:
@@ -38,6 +41,6 @@ def shear_phases(time: float, period: float = RENEWAL_PERIOD) -> tuple[tuple[flo
         lives = time / period + 0.5 * pattern
         life = math.floor(lives)
         ages.append(min((lives - life) * period, math.nextafter(period, 0.0)))
-        seeds.append(float((2 * life + pattern) * 389 % _SEEDS))  # 389 is odd: a seed returns after 512 lives
+        seeds.append(float((2 * life + pattern) * _SEED_STEP % _SEEDS))
     first = math.sin(math.pi * ages[0] / period) ** 2
     return (ages[0], ages[1]), (first, 1.0 - first), (seeds[0], seeds[1])

@@ -306,6 +306,8 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
     model = catalogue.plug_ins("ray_model")[row.model]
     if rays.model == AUTO and (spins and not model.traits.spins or model.traits.space_time == "flat"):
         return False
+    if rays.light_travel and not model.traits.tells_time and rays.model == AUTO:
+        return False
     if has_things and not model.traits.meets_things:
         return False
     angular = model.traits.marches_in == "mino"

@@ -35,6 +35,9 @@ _BEYOND = 1.05
 # What is marched, or tells its paths, in each space-time.
 _MARCHED = {"flat": "flat", "schwarzschild": "schwarzschild", "kerr": "kerr"}
 
+# What tells how long light is under way, in each.
+_TELLING_TIME = {"schwarzschild": "schwarzschild_binet", "kerr": "kerr"}
+
 # Share of the tolerance that interpolation may take; the march's own error at most pixels is far below its share.
 _REFINE_SHARE = 0.8
 
@@ -50,11 +53,15 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
     scene, why_other = _meeting_things(met.with_thickness(scene))
-    chosen = choice.choose(scene, sky_alone=not keep_crossings)
-    scene, reasons = chosen.scene, list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",))
+    chosen, why_times = _telling_time(scene, sky_alone=not keep_crossings)
+    reasons = list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",)) + why_times
+    scene = chosen.scene
     reasons += why_other
     model, where = ray_model(scene), space_time(scene)
     orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
+    meetings = _meetings(scene)
+    if scene.rays.light_travel and meetings == 2:
+        orders = min(orders, 2)  # GL 3.3 has no room for the times of more
     reasons += _why_orders(scene, orders, keep_crossings)
     integrator = control = None
     stretch, max_steps = 1.0, 1
@@ -86,7 +93,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         disk_inner=inner,
         disk_outer=outer,
         disk_edge=INNERMOST_MATTER * where.horizon_radius if scene.disk.plunging else inner,
-        meetings=_meetings(scene),
+        meetings=meetings,
         reach=reach,
         reach_steps=reach_steps,
         refine_px=refine_px(scene) if refine else 0.0,
@@ -171,6 +178,34 @@ def _meeting_things(scene: Scene) -> tuple[Scene, list[str]]:
     return scene.with_values({"rays.model": other}), [why]
 
 
+def _telling_time(scene: Scene, sky_alone: bool) -> tuple[choice.Choice, list[str]]:
+    """What is chosen for `scene`; where light is to take its time, with a ray model that tells how much, or without, and why."""
+    made = choice.choose(scene, sky_alone=sky_alone)
+    model = ray_model(made.scene)
+    if not scene.rays.light_travel:
+        return made, []
+    why = _why_no_time(made.scene)
+    if why:
+        return choice.choose(scene.with_values({"rays.light_travel": False}), sky_alone=sky_alone), [f"light takes no time: {why}"]
+    if model.traits.tells_time:
+        return made, []
+    other = _TELLING_TIME[model.traits.space_time]
+    why = f"{other} instead of {model.key}, which does not tell how long light is under way"
+    return choice.choose(scene.with_values({"rays.model": other}), sky_alone=sky_alone), [why]
+
+
+def _why_no_time(scene: Scene) -> str:
+    """Why it is not known how long light is under way in `scene`; empty where it is."""
+    model = ray_model(scene)
+    if not model.traits.tells_time and (not model.traits.exact or model.traits.space_time not in _TELLING_TIME):
+        return f"{model.key} is light of no hole's own space-time"
+    if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
+        return "artistic gravity has no clocks"
+    if scene.camera.distance <= space_time(scene).horizon_radius:
+        return "at the horizon the time of those far away has no end, and the camera is inside"
+    return ""
+
+
 def _fitting(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:
     """`scene` with a step control that its marched model and its integrator go with, and what was changed.
 
@@ -236,6 +271,8 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice, reach_steps: int)
         return False, "moving: a ray for every pixel, as it costs no more than interpolating"
     if not met.is_empty(scene) and not reach_steps:
         return False, "moving: a ray for every pixel, as it is not known where things and media can be seen"
+    if scene.rays.light_travel:
+        return False, "moving: a ray for every pixel, as the times of light are not interpolated"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
     found = choice.refinement(scene)

@@ -106,6 +106,11 @@ class Plan:
         )
 
     @property
+    def times(self) -> bool:
+        """Whether it is kept how long light is under way."""
+        return self.scene.rays.light_travel
+
+    @property
     def is_inside(self) -> bool:
         """Whether the camera is inside the horizon, or on it."""
         return self.scene.camera.distance <= self.space_time.horizon_radius

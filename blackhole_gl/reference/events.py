@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -45,6 +45,14 @@ class LightSystem(RaySystem, Protocol):
 
     def affine_rate(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
         """Affine length in r_s, of a photon with E = 1 far away, by the model's own parameter, (N,)."""
+
+
+@runtime_checkable
+class TellsTime(Protocol):
+    """A ray model that tells how long light is under way."""
+
+    def delay(self, state: Float[Array, "rows N"]) -> Float[Array, " N"]:
+        """From there to the camera, (N,) in r_s/c, of Boyer-Lindquist's time; to a camera at infinity, less r + ln r of it in r_s."""
 
 
 class LightRays(NamedTuple):
@@ -208,5 +216,8 @@ class Watch:
         crossing = rays[part]
         along = self._travelled[crossing] + np.broadcast_to(offset, rays.shape)[part] + parameter
         where = (crossing, index, self._found[index, crossing])
-        self.crossings.record(where, along, 1.0 / inverse_radius, n, self._system.momentum(state))
+        self.crossings.record(where, along, 1.0 / inverse_radius, n, self._system.momentum(state), self._delay(state))
         self._found[index, crossing] += 1
+
+    def _delay(self, state: Array) -> Array | float:
+        return self._system.delay(state) if isinstance(self._system, TellsTime) else np.nan

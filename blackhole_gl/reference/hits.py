@@ -28,6 +28,7 @@ class Crossings:
     Attributes: arrays of one shape, (N, events, orders) unless said otherwise.
         along: how far along the ray from the camera, in the twin's own parameter: good for telling what comes first.
         r: in r_s. theta, phi: in radians, phi in (-pi, pi].
+        delay: of the light from there to the camera, as `events.TellsTime` has it; NaN where the twin does not tell.
         k_r: a number; k_theta: in M. NaN where the model's rays are no light in any metric; k_theta also on the axis, where e_theta has no direction.
     """
 
@@ -37,6 +38,7 @@ class Crossings:
     phi: Float[Array, "*shape"]
     k_r: Float[Array, "*shape"]
     k_theta: Float[Array, "*shape"]
+    delay: Float[Array, "*shape"]
 
     @classmethod
     def none(cls, rays: int, events: int, orders: int) -> Crossings:
@@ -49,12 +51,13 @@ class Crossings:
         r: Float[Array, " k"],
         n: Float[Array, "3 k"],
         momentum: tuple[Float[Array, " k"], Float[Array, " k"]] | tuple[float, float],
+        delay: Float[Array, " k"] | float = np.nan,
     ) -> None:
         """Puts crossings at r (k,) in r_s in the unit directions n (3, k) into the entries `where`."""
         self.along[where], self.r[where] = along, r
         self.theta[where] = np.arctan2(np.hypot(n[0], n[1]), n[2])
         self.phi[where] = wrapped(np.arctan2(n[1], n[0]))
-        self.k_r[where] = momentum[0]
+        self.k_r[where], self.delay[where] = momentum[0], delay
         self.k_theta[where] = np.where(np.hypot(n[0], n[1]) > _AXIS, momentum[1], np.nan)
 
     def emptied(self, mask: Bool[Array, "*shape"]) -> Crossings:

@@ -26,6 +26,12 @@ Three things that cost digits until they were known:
 - Whether a ray goes in or out is to be read from Boyer-Lindquist's r: R grows as well when light slides from the pole to the equator.
 - n.n = 1 and n.L = 0 must be neutral: with 1 - n_z^2 where n_x^2 + n_y^2 belongs, an error of |n| grows as e^(kappa sigma), kappa ~ 1/sqrt(Delta).
 
+The photon's time T' = (E + f kappa) R^2 has no bound far out; U = T + R (ingoing, T - R outgoing) has: with E + p_n = w^2 e and kappa = w^2 (e + d),
+
+    U' = (E - w')/w^2 + F kappa/w = e + (1 - c (rho + a^2 w^2 s sigma)) F w (e + d)
+
+for light that comes in, regular at w = 0. Boyer-Lindquist's time is t = U -+ (R + int 2r/Delta dr).
+
 Boyer-Lindquist's azimuth is phi = arg(x + i y) - atan(a/r) + int_r^inf a/Delta dr, the integral being
 log1p((r_+ - r_-)/(r - r_+)) a/(r_+ - r_-).
 """
@@ -45,8 +51,10 @@ from .registry import View, twin
 
 Array = np.ndarray
 
+_FAR = 1e-3  # w below which the time of light that comes in is formed as it is regular there
+
 # Rows of the state.
-N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY, CHART = range(10)
+N_X, N_Y, N_Z, W, L_X, L_Y, L_Z, P_N, ENERGY, CHART, TIME = range(11)
 
 
 class KerrSchildSystem:
@@ -58,7 +66,7 @@ class KerrSchildSystem:
         self.capture_radius = 0.5 * self.r_plus  # in r_s, as all that is not of these equations' own
 
     def rhs(self, state: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
-        nx, ny, s, w, lx, ly, lz, pn, energy, chart = state
+        nx, ny, s, w, lx, ly, lz, pn, energy, chart, _ = state
         a = chart * self.spin
         lx, ly, lz, pn = chart * lx, chart * ly, chart * lz, chart * pn
         ah = a * w
@@ -102,8 +110,16 @@ class KerrSchildSystem:
                 + (c_a * a2 + 2.0 * c * ah - c * a2 * rho_a / rho) * sr * pz)
         pn_dot = (w * (lnx * nx_dot + lny * ny_dot + lnz * nz_dot)
                   - 0.5 * kappa * kappa * (big_f + ah * f_a) - w * fk * a * lp_a)
+        along = c * (rho + a2 * s * sr)  # w' = w F kappa along - p_n
+        with np.errstate(all="ignore"):  # w is 0 where a ray from infinity starts, and then only `far` counts
+            near = (energy + pn - w * fk * along) / (w * w) + fk / w
+            come_in = (fk * np.where(w > 0.0, kappa / w, 0.0) - lx * lx - ly * ly - lz * lz) / (pn - energy)  # (E + p_n)/w^2
+            flat = 2.0 * a * a * (1.0 - s2) / ((1.0 + a2 + root) * (1.0 + rho))  # (1 - rho)/w^2
+            beside = c * (pn * (rho * flat - a * a) - a * lz + a * a * sr * pz)
+            far = come_in + (1.0 - along) * big_f * w * (come_in + beside)
+        time_dot = np.where((w < _FAR) & (pn < 0.0), far, near)
         zero = np.zeros_like(w)
-        return np.stack([chart * nx_dot, chart * ny_dot, chart * nz_dot, chart * w_dot, lx_dot, ly_dot, zero, pn_dot, zero, zero])
+        return np.stack([chart * nx_dot, chart * ny_dot, chart * nz_dot, chart * w_dot, lx_dot, ly_dot, zero, pn_dot, zero, zero, time_dot])
 
     def rechart(self, before: Float[Array, " rows *points"], after: Float[Array, " rows *points"]) -> Float[Array, " rows *points"]:
         """`after` with the rays that turned round in their last step, from `before`, moved to the chart that suits their way."""
@@ -133,6 +149,7 @@ class KerrSchildSystem:
         tilt = kick * a * a * r * z * inv_d / w
         result[L_X] -= tilt * state[N_Y]
         result[L_Y] += tilt * state[N_X]
+        result[TIME] -= 2.0 * chart * (1.0 / w + self.time_lead(r))
         zeta = 2.0 * chart * self.azimuth_lag(r) - 2.0 * np.arctan2(a, r)
         c, s = np.cos(zeta), np.sin(zeta)
         for x, y in ((N_X, N_Y), (L_X, L_Y)):
@@ -146,6 +163,7 @@ class KerrSchildSystem:
         size[W] = 1.0 / angular  # the angle swept until w has changed by dw is L dw
         size[L_X:P_N] = angular
         size[P_N] = np.maximum(np.abs(state[P_N]), np.abs(state[ENERGY]))
+        size[TIME] = 1e3  # it drives nothing
         return size
 
     def longest_step(self, state: Float[Array, " rows *points"]) -> Float[Array, "*points"]:
@@ -198,6 +216,16 @@ class KerrSchildSystem:
         """E R^2, of lengths in M."""
         return 0.5 * np.abs(state[ENERGY]) / state[W] ** 2
 
+    def delay(self, state: Float[Array, "rows N"]) -> Float[Array, " N"]:
+        """Time of light from there to the camera, (N,); see `events.TellsTime`."""
+        return 0.5 * (state[TIME] - state[CHART] * (1.0 / state[W] + self.time_lead(self.radius(state))))
+
+    def time_lead(self, r: Array | float) -> Array | float:
+        """Integral of 2r/Delta, 2 ln r far out: the time of the ingoing coordinates less Boyer-Lindquist's, which inside the horizon has none."""
+        outside = np.where(r > self.r_plus, r - self.r_plus, np.nan)
+        gap = 2.0 * (self.r_plus - 1.0)
+        return 2.0 * np.log(outside) - 2.0 * (2.0 - self.r_plus) / gap * np.log1p(gap / outside)
+
     def azimuth_lag(self, r: Array | float) -> Array | float:
         """Integral of a/Delta from r to infinity: phi_BL minus the azimuth that stays fixed along ingoing principal rays; 0 where there is no phi_BL."""
         gap = 2.0 * (self.r_plus - 1.0)
@@ -205,7 +233,7 @@ class KerrSchildSystem:
         return self.spin * np.log1p(gap / outside) / gap
 
     def start(self, place: Place, photons: Momenta) -> Float[Array, "rows N"]:
-        """State (10, N) of photons at a finite place; inside the horizon its azimuth is that of the chart.
+        """State (11, N) of photons at a finite place; inside the horizon its azimuth is that of the chart.
 
         There all of them go outwards, and those that have P <= 0 at the horizon never come to it: they are put into the chart in which they count as captured.
         """
@@ -233,20 +261,24 @@ class KerrSchildSystem:
         distance = math.sqrt(r * r + (self.spin * sin) ** 2)
         momentum = np.cross(x.T, p.T).T
         momentum[2] = sin * photons.l_over_sin
-        return self._state(x / distance, 1.0 / distance, momentum, p, photons.energy, chart)
+        state = self._state(x / distance, 1.0 / distance, momentum, p, photons.energy, chart)
+        state[TIME] = chart * (distance + self.time_lead(r))
+        return state
 
     def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:
-        """State (10, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
+        """State (11, N) of parallel rays that enter at (alpha, beta) = `screen` (N, 2), in M."""
         e_r, e_theta, e_phi = place.frame()
         alpha, beta = screen.T
         momentum = -np.outer(e_theta, alpha) - np.outer(e_phi, beta)
         momentum[2] = alpha * place.sin_theta
         n, one = np.repeat(e_r[:, None], len(screen), axis=1), np.ones(len(screen))
-        return self._state(n, 0.0, momentum, -n, one, one)
+        state = self._state(n, 0.0, momentum, -n, one, one)
+        state[TIME] = 2.0 * math.log(2.0)  # less r + 2 ln(r/2) of the camera
+        return state
 
     @staticmethod
     def _state(n: Array, w: float, momentum: Array, p: Array, energy: Array, chart: Array) -> Array:
-        state = np.empty((10, energy.size))
+        state = np.zeros((11, energy.size))
         state[N_X:W], state[W], state[L_X:P_N] = n, w, momentum
         state[P_N] = np.einsum("ij,ij->j", n, p)
         state[ENERGY], state[CHART] = energy, chart

@@ -96,7 +96,7 @@ class HitMap:
         if held and self.is_sharp and not changed:
             return False
         self._bind_tables(rays)
-        target = self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings))
+        target = self._make_targets(inputs.size, hit_texels.textures(plan.orders, plan.meetings, plan.times))
         generation, was_sharp = self.generation, self.is_sharp
         if changed:
             self._trace_squares(rays, target, changed)
@@ -134,7 +134,7 @@ class HitMap:
         """Traces the rays of `blocks`, of the picture of `inputs`, that are `fresh`."""
         inputs = inputs.drawn_as(blocks.size)
         self._last, self._blocks, self._refined_for = inputs, blocks, None
-        target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
+        target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
         if fresh.changed is None:
             target.clear()
         for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
@@ -180,7 +180,7 @@ class HitMap:
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan
-        found = dict(zip(hit_texels.names(plan.orders, plan.meetings), self.textures))
+        found = dict(zip(hit_texels.names(plan.orders, plan.meetings, plan.times), self.textures))
         if self._blocks is not None:
             found |= self._blocks.samplers
         return found if self.is_sharp else {**found, **self._grid.samplers()}
@@ -261,7 +261,7 @@ class HitMap:
         texture.use(0)
         self._bind_tables(rays)
         self._key, self.generation = None, next(_GENERATIONS)
-        self._make_targets((width, height), hit_texels.textures(plan.orders, plan.meetings))
+        self._make_targets((width, height), hit_texels.textures(plan.orders, plan.meetings, plan.times))
         momenta = [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(hit_texels.momenta_textures(plan.meetings))]
         target = self._ctx.framebuffer([*self.textures, *momenta])
         target.use()
@@ -301,7 +301,7 @@ class HitMap:
         """The map as arrays of shape (height, width, …), as its readers see it."""
         plan = self._traced.plan
         stored = [_texels(texture) for texture in self.textures] if self.is_sharp else self._resolved()
-        found = hit_texels.unpacked(stored, plan.orders, plan.meetings)
+        found = hit_texels.unpacked(stored, plan.orders, plan.meetings, plan.times)
         return replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
 
     def at(self, pixel: tuple[int, int]) -> tuple[FrameInputs, HitArrays] | None:
@@ -317,14 +317,14 @@ class HitMap:
             return None
         plan, target = self._last.plan, self._targets[len(self.textures)]
         texels = [np.frombuffer(target.read((*pixel, 1, 1), 4, attachment=k, dtype="f4"), np.float32).reshape(1, 4) for k in range(len(self.textures))]
-        found = hit_texels.unpacked(texels, plan.orders, plan.meetings)
+        found = hit_texels.unpacked(texels, plan.orders, plan.meetings, plan.times)
         found = replace(found, direction=self._in_world(found.direction), crossing=self._in_world(found.crossing))
         return self._last, found.each(lambda values: values.reshape(values.shape[1:]))
 
     def where_met(self, number: Number) -> np.ndarray:
         """The pixels whose rays meet the instance of that number, bool (height, width), of a sharp map. Waits for the GPU."""
         plan = self._traced.plan
-        places = self.textures[hit_texels.textures(plan.orders) :: 2]
+        places = self.textures[hit_texels.textures(plan.orders) : hit_texels.textures(plan.orders, plan.meetings) : 2]
         found = np.zeros(self.textures[0].size[::-1], bool)
         for texture in places:
             met = hit_texels.met_of(_texels(texture))

@@ -20,14 +20,14 @@ def momenta_textures(meetings: int) -> int:
     return 2 if meetings < 2 else 0
 
 
-def textures(orders: int, meetings: int = 0) -> int:
-    """Textures of a map that keeps `orders` crossings and `meetings` with things and media."""
-    return 1 + min(orders, 2) + 2 * meetings
+def textures(orders: int, meetings: int = 0, times: bool = False) -> int:
+    """Textures of a map that keeps `orders` crossings and `meetings` with things and media, and of each, with `times`, how long its light is under way."""
+    return 1 + min(orders, 2) + 2 * meetings + times
 
 
-def names(orders: int, meetings: int) -> list[str]:
+def names(orders: int, meetings: int, times: bool) -> list[str]:
     """What shaders call them, in their order."""
-    return [f"hits{k}" for k in range(textures(orders))] + [name for k in range(meetings) for name in (f"met{k}", f"way{k}")]
+    return [f"hits{k}" for k in range(textures(orders))] + [name for k in range(meetings) for name in (f"met{k}", f"way{k}")] + ["times"] * times
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,8 @@ class HitArrays:
         crossing: float32 (…, 3, 2): r·(cos φ, sin φ) in r_s, of a tilted disk in its own axes (`physics.tilted_disk`); zero = none.
         inbound: bool (…, 3): whether the light at each crossing still comes in towards the hole, so that k_r < 0, or of a tilted disk whether it goes
             south there, k_θ > 0; means nothing in the view `conservation`.
+        delay: float32 (…, 3): how long light is under way from each crossing to the camera, in r_s/c; to one at infinity, less r + ln r of it in r_s.
+            NaN without a crossing; None where no times are kept.
         momentum: float32 (…, 3, 2): (k_r, k_θ) at each crossing of the photon that arrives, covariant in Boyer–Lindquist's coordinates with M = 1 and
             |E| = 1; NaN without a crossing. None of a picture's pixels: kept of listed rays alone.
         met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.
@@ -55,6 +57,7 @@ class HitArrays:
     lambda_: Float[Array, "*rays"]
     crossing: Float[Array, "*rays 3 2"]
     inbound: Bool[Array, "*rays 3"]
+    delay: Float[Array, "*rays 3"] | None = None
     momentum: Float[Array, "*rays 3 2"] | None = None
     met: Int[Array, "*rays meetings 3"] | None = None
     met_place: Float[Array, "*rays meetings 3"] | None = None
@@ -83,7 +86,7 @@ def fates_and_steps(texels: Float[Array, "*rays 4"]) -> tuple[Int[Array, "*rays"
     return packed & 3, packed >> 2
 
 
-def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: int) -> HitArrays:
+def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: int, times: bool) -> HitArrays:
     """The hits in the texels (…, 4) of `textures`, directions and places as they lie there."""
     plane = textures(orders)
     first, kept = texels[0], list(texels[1:plane])
@@ -92,6 +95,8 @@ def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: i
     crossing = np.stack([kept[0][..., :2], kept[1][..., :2], kept[1][..., 2:]], axis=-2)
     inbound = (kept[0][..., 3, None].astype(np.int32) >> np.arange(MOST_CROSSINGS) & 1) == 1
     found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing, inbound)
+    if times:
+        found = replace(found, delay=np.where(np.any(crossing != 0.0, axis=-1), texels[plane + 2 * meetings][..., :3], np.float32(np.nan)))
     if not meetings:
         return found
     places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)

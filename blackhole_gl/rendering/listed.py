@@ -26,6 +26,8 @@ def trace(hit_map: HitMap, scene: Scene, directions: np.ndarray) -> tuple[HitArr
     momentum = None
     if not hit_texels.momenta_textures(plan.meetings):
         momentum = hit_map.trace_listed(make_plan(met.without_any(scene), keep_crossings=True), directions).momentum
+    if plan.model.traits.tells_time and not plan.is_inside:
+        plan = replace(plan, scene=plan.scene.with_values({"rays.light_travel": True}))  # as listed rays tell all that there is to tell
     hits = hit_map.trace_listed(plan, directions)
     if momentum is not None:
         hits = replace(hits, momentum=np.where(np.any(hits.crossing != 0.0, axis=-1, keepdims=True), momentum, np.float32(np.nan)))

@@ -57,7 +57,7 @@ class ThingsGrid:
         """R8, 1 for the lower left node of each cell that one thing fills, of the picture of the trace pass `rays`, which meets things; `reached` says what
         cells may show."""
         inputs = rays.inputs
-        made = self._targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings))
+        made = self._targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
         first = -GRID_MARGIN * REFINE_STEP
         rays.set(ray_grid=(REFINE_STEP, first, first))
         made.solid.frame.clear()  # and the depth

@@ -190,7 +190,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found["CAMERA_FALLS"] = int(plan.model.traits.crosses_horizon and plan.scene.camera.observer in observer.FALLING)
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
-    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **_constants()}
+    found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **shear.DEFINES, **_constants()}
     for key, name in _switch_names():
         found[name] = int(plan.scene.get(key) is True)
     for key, names in _choice_names():

@@ -148,6 +148,11 @@ class Rays:
         "Rays along each axis of a pixel within which what is seen changes: at the shadow's edge and on the rings, where one would leave a row of dots; odd "
         "numbers count as the next even one. 1: its own ray alone.",
     )
+    light_travel: bool = switch(
+        False,
+        "Light takes its time: the disk's patterns, its hot spot, media and what moves are seen where they were when the light left them. A camera at infinity "
+        "tells time by light that would have passed the hole undelayed. Off: all is seen as it is at scene time.",
+    )
     lensing: bool = switch(True, "Off: light runs straight, with the hole a black ball.", physical=True)
 
 

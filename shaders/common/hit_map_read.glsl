@@ -22,6 +22,9 @@ uniform sampler2D met0, way0;
 #if MEETINGS > 1
 uniform sampler2D met1, way1;
 #endif
+#if RAYS_LIGHT_TRAVEL
+uniform sampler2D times;
+#endif
 #if HIT_MAP_REFINED
 uniform usampler2D cells;
 uniform sampler2D coarse0; // these are filtered linearly
@@ -119,14 +122,18 @@ Hits stored_hits(ivec2 pixel) {
     t2 = texel_of(hits2, pixel);
 #endif
     Hits hits = unpacked_hits(texel_of(hits0, pixel), t1, t2);
+#if RAYS_LIGHT_TRAVEL
+    vec4 delays = texel_of(times, pixel);
+    hits.delay = delays.xyz;  // of two meetings' the third is none of a crossing, and there is no such crossing
+#endif
 #if MEETINGS && HIT_MAP_REFINED
     if ((cell & CELL_WITHOUT_THINGS) != 0u) return hits;
 #endif
 #if MEETINGS
-    hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel));
+    hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel) AND_TIME(delays.w));
 #endif
 #if MEETINGS > 1
-    hits.meeting[1] = unpacked_meeting(texel_of(met1, pixel), texel_of(way1, pixel));
+    hits.meeting[1] = unpacked_meeting(texel_of(met1, pixel), texel_of(way1, pixel) AND_TIME(delays.z));
 #endif
     return hits;
 }

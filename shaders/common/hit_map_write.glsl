@@ -16,16 +16,19 @@ layout(location = 2) out vec4 hits2_out;
 #define FREE_TARGET_1 4
 #define FREE_TARGET_2 5
 #define FREE_TARGET_3 6
+#define FREE_TARGET_4 7
 #elif ORDERS == 1
 #define FREE_TARGET_0 2
 #define FREE_TARGET_1 3
 #define FREE_TARGET_2 4
 #define FREE_TARGET_3 5
+#define FREE_TARGET_4 6
 #else
 #define FREE_TARGET_0 1
 #define FREE_TARGET_1 2
 #define FREE_TARGET_2 3
 #define FREE_TARGET_3 4
+#define FREE_TARGET_4 5
 #endif
 // NO_MEETINGS: of rays that look for no things or media, in a map of rays that do: as many as those keep.
 #if MEETINGS || NO_MEETINGS
@@ -36,13 +39,30 @@ layout(location = FREE_TARGET_1) out vec4 way0_out;
 layout(location = FREE_TARGET_2) out vec4 met1_out;
 layout(location = FREE_TARGET_3) out vec4 way1_out;
 #endif
+#if RAYS_LIGHT_TRAVEL
+#if MEETINGS > 1 || NO_MEETINGS > 1
+layout(location = FREE_TARGET_4) out vec4 times_out;
+#elif MEETINGS || NO_MEETINGS
+layout(location = FREE_TARGET_2) out vec4 times_out;
+#else
+layout(location = FREE_TARGET_0) out vec4 times_out;
+#endif
+#endif
 // With two meetings, in a scene with media, there is no room for momenta.
-#if RAYS_LISTED && MEETINGS == 1
+#if RAYS_LISTED && MEETINGS < 2
+#if MEETINGS == 1 && RAYS_LIGHT_TRAVEL
+layout(location = FREE_TARGET_3) out vec4 momenta0_out;
+layout(location = FREE_TARGET_4) out vec4 momenta1_out;
+#elif MEETINGS == 1
 layout(location = FREE_TARGET_2) out vec4 momenta0_out;
 layout(location = FREE_TARGET_3) out vec4 momenta1_out;
-#elif RAYS_LISTED && MEETINGS == 0
+#elif RAYS_LIGHT_TRAVEL
+layout(location = FREE_TARGET_1) out vec4 momenta0_out;
+layout(location = FREE_TARGET_2) out vec4 momenta1_out;
+#else
 layout(location = FREE_TARGET_0) out vec4 momenta0_out;
 layout(location = FREE_TARGET_1) out vec4 momenta1_out;
+#endif
 #endif
 
 #if POST_VIEW_CONSERVATION
@@ -53,6 +73,9 @@ float march_drift = -1.0;  // relative drift of what the ray's model conserves; 
 Hits only_finite(Hits hits) {
     bool plane = is_finite(vec3(hits.crossing[0], hits.lambda)) && is_finite(vec3(hits.crossing[1], 0.0)) && is_finite(vec3(hits.crossing[2], 0.0));
     bool space = true;
+#if RAYS_LIGHT_TRAVEL
+    space = is_finite(hits.delay);
+#endif
 #if MEETINGS
     for (int k = 0; k < MEETINGS; ++k)
         space = space && is_finite(hits.meeting[k].place) && is_finite(hits.meeting[k].momentum.n_rate) && is_finite(vec3(hits.meeting[k].momentum.w_rate));
@@ -108,6 +131,9 @@ void store_hits(Hits traced) {
 #endif
 #if NO_MEETINGS > 1
     met1_out = way1_out = vec4(0.0);
+#endif
+#if RAYS_LIGHT_TRAVEL
+    times_out = times_texel(hits);
 #endif
 #if RAYS_LISTED && MEETINGS < 2
     momenta0_out = vec4(covariant_momentum(hits.crossing[0], hits.momentum[0]), covariant_momentum(hits.crossing[1], hits.momentum[1]));

@@ -4,6 +4,7 @@
 //   hits1   crossing 0, λ, inbound (for the view of conserved quantities the drift)  with ORDERS > 0
 //   hits2   crossings 1 and 2                                                       with ORDERS > 1
 //   met0, way0, …   place in r_s and what is met there; w_rate and n_rate of the momentum      a pair for each of MEETINGS
+//   times   delays of crossings 0 and 1, of crossing 2 or with two meetings of the second, of the first meeting    with RAYS_LIGHT_TRAVEL
 //   momenta0, momenta1   (k_r, k_θ) at crossings 0 and 1, and at crossing 2         of listed rays alone
 
 vec4 escape_texel(vec3 direction, int fate, int steps) {
@@ -51,8 +52,21 @@ vec4 way_texel(Meeting meeting) {
     return vec4(meeting.momentum.n_rate, meeting.momentum.w_rate);
 }
 
-Meeting unpacked_meeting(vec4 met, vec4 way) {
+Meeting unpacked_meeting(vec4 met, vec4 way AND_TIME(float delay)) {
     int bits = int(met.w + 0.5);
-    return Meeting((bits & 31) - 1, bits >> 8, (bits >> 5) & 3, ((bits >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz));
+    return Meeting((bits & 31) - 1, bits >> 8, (bits >> 5) & 3, ((bits >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz) AND_TIME(delay));
+}
+#endif
+
+#if RAYS_LIGHT_TRAVEL
+vec4 times_texel(Hits hits) {
+    vec4 times = vec4(hits.delay, 0.0);
+#if MEETINGS
+    times.w = hits.meeting[0].delay;
+#endif
+#if MEETINGS > 1
+    times.z = hits.meeting[1].delay;
+#endif
+    return times;
 }
 #endif

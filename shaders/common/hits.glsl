@@ -1,5 +1,12 @@
 // What became of a ray. Directions stay vectors and crossings stay points: no angle is ever stored. How it lies in texels: hit_texels.glsl.
 
+// What there is of times where light takes some (rays.light_travel): AND_TIME(x) stands for one more argument or member, or for none.
+#if RAYS_LIGHT_TRAVEL
+#define AND_TIME(t) , t
+#else
+#define AND_TIME(t)
+#endif
+
 // Momentum of a ray as its model carries it: rates in Mino time (M = 1) along the ray traced backwards, |E| = 1, in the plan's frame.
 // At the place w = M/r with the unit vector n from the hole, the photon that arrives has, covariant in Boyer–Lindquist's coordinates,
 // k_r = w_rate/(Δw²), k_θ = −n_rate·e_θ, k_φ = λE = −sin θ n_rate·e_φ (docs/physics.md).
@@ -24,7 +31,14 @@ struct Meeting {
     bool enters;        // from outside into it
     vec3 place;         // r_s
     Momentum momentum;
+#if RAYS_LIGHT_TRAVEL
+    float delay;        // as Hits has it
+#endif
 };
+#endif
+
+#if MEETINGS
+const Meeting NO_MEETING = Meeting(-1, 0, 0, false, vec3(0.0), Momentum(0.0, vec3(0.0)) AND_TIME(0.0));
 #endif
 
 struct Hits {
@@ -34,6 +48,9 @@ struct Hits {
     int steps;
     vec2 crossing[3];  // r·(cos φ, sin φ) in r_s of the crossings of the disk's plane, in its axes, nearest along the ray first; zero = none
     int inbound;       // bit n: at crossing n the light still comes in towards the hole; of a tilted disk instead, it goes south there: k_θ > 0
+#if RAYS_LIGHT_TRAVEL
+    vec3 delay;        // r_s/c from each crossing to the camera; to one at infinity, less r + ln r of the camera in r_s
+#endif
 #if RAYS_LISTED
     Momentum momentum[3];  // at the crossings
 #endif
@@ -50,13 +67,16 @@ Hits no_hits(float lambda) {
     hits.steps = 0;
     hits.crossing = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
     hits.inbound = 0;
+#if RAYS_LIGHT_TRAVEL
+    hits.delay = vec3(0.0);
+#endif
 #if RAYS_LISTED
     Momentum none = Momentum(0.0, vec3(0.0));
     hits.momentum = Momentum[3](none, none, none);
 #endif
 #if MEETINGS
     for (int k = 0; k < MEETINGS; ++k)
-        hits.meeting[k] = Meeting(-1, 0, 0, false, vec3(0.0), Momentum(0.0, vec3(0.0)));
+        hits.meeting[k] = NO_MEETING;
 #endif
     return hits;
 }
@@ -66,7 +86,7 @@ bool is_inbound(Hits hits, int n) {
 }
 
 // Puts a crossing into the first free place; those beyond ORDERS are dropped.
-void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
+void add_crossing(inout Hits hits, vec2 point, Momentum momentum AND_TIME(float delay)) {
     int place = hits.crossing[0] == vec2(0.0) ? 0 : hits.crossing[1] == vec2(0.0) ? 1 : hits.crossing[2] == vec2(0.0) ? 2 : 3;
     if (place == 0) hits.crossing[0] = point;
     else if (place == 1) hits.crossing[1] = point;
@@ -77,6 +97,9 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
     bool inbound = momentum.w_rate < 0.0;
 #endif
     if (inbound && place < 3) hits.inbound |= 1 << place;
+#if RAYS_LIGHT_TRAVEL
+    if (place < 3) hits.delay[place] = delay;
+#endif
 #if RAYS_LISTED
     if (place == 0) hits.momentum[0] = momentum;
     else if (place == 1) hits.momentum[1] = momentum;
@@ -86,9 +109,9 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum) {
 
 #if MEETINGS
 // Puts a meeting behind the others. Where there is no room those beyond are dropped, but not one that ends the ray: it takes the last place.
-void add_meeting(inout Hits hits, int kind, int index, bool enters, vec3 place, Momentum momentum, bool ends) {
+void add_meeting(inout Hits hits, int kind, int index, bool enters, vec3 place, Momentum momentum AND_TIME(float delay), bool ends) {
     int before = (hits.crossing[0] != vec2(0.0) ? 1 : 0) + (hits.crossing[1] != vec2(0.0) ? 1 : 0) + (hits.crossing[2] != vec2(0.0) ? 1 : 0);
-    Meeting meeting = Meeting(kind, index, before, enters, place, momentum);
+    Meeting meeting = Meeting(kind, index, before, enters, place, momentum AND_TIME(delay));
     bool kept = false;
     for (int k = 0; k < MEETINGS; ++k) {
         if (!kept && (hits.meeting[k].kind < 0 || ends && k == MEETINGS - 1)) {

@@ -15,6 +15,9 @@
 //     Path  ray_path(Orbit, State)                where it is in space, with rates (common/curve.glsl)
 //     Momentum ray_momentum(Orbit, State)         (common/hits.glsl)
 //     float ray_affine_rate(Orbit, State)         ds/dσ: affine length in r_s, of a photon with E = 1, by the parameter of the march; its length where space is flat
+// With RAYS_LIGHT_TRAVEL, of a model whose header says tells_time,
+//     float ray_delay(State)                      time of light from there to the camera, as Hits has it; ray_delay_rate(Orbit, State): by the march's parameter
+//     State ray_delayed(State, float)             the same state, with so much more of it
 // and, for those integrators and step controls that ask for them,
 //     State state_kick(State s, float h, State k), state_drift(State s, float h)   what only places drive moved by h k; places moved by their rates
 //     State state_push(State s, float h2, State k)      places moved by h2 times the rates of their rates
@@ -83,6 +86,9 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
     }
 #endif
     float slip = clamp(-height.x / height.y, -0.1 * h, 0.1 * h);
+#if RAYS_LIGHT_TRAVEL
+    there = ray_delayed(there, slip * ray_delay_rate(orbit, there));
+#endif
 #ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
 #else
@@ -93,7 +99,7 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #else
     vec2 point = ray_plane_point(there);
 #endif
-    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there));
+    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there) AND_TIME(ray_delay(there)));
 }
 #endif
 

@@ -34,6 +34,7 @@ make = "blackhole_gl.physics.hot_spot:place"
 of = ["disk.hot_spot.radius", "disk.hot_spot.phase_deg", "disk.orbit", "disk.tilt_deg", "hole.spin", "rays.model", "rays.lensing", "time"]
 type = "vec4"
 ---*/
+#include "common/rotation.glsl"
 
 // The part of a Gaussian of width `size` that a stretch `wide` of it leaves on average, and the width that it is then: (width², height).
 vec2 spot_blurred(float size, float wide) {
@@ -44,7 +45,12 @@ vec2 spot_blurred(float size, float wide) {
 DiskMatter disk_layer_hot_spot(DiskMatter matter) {
     vec2 outwards = spot_blurred(disk_hot_spot_size, matter.footprint.x), around = spot_blurred(disk_hot_spot_size, matter.footprint.y);
     float far = log(matter.radius / disk_spot.z);
-    vec2 chord = matter.heading - disk_spot.xy;
+#if RAYS_LIGHT_TRAVEL
+    vec2 spot = rotate(disk_spot.xy, cos_sin(-disk_spot.w * seen_delay));
+#else
+    vec2 spot = disk_spot.xy;
+#endif
+    vec2 chord = matter.heading - spot;
     float depth = far * far / outwards.x + dot(chord, chord) / around.x;
     matter.gain *= 1.0 + disk_hot_spot_brightness * outwards.y * around.y * exp(-0.5 * depth);
     return matter;

@@ -12,6 +12,7 @@ spins = true
 second_order = true
 exact = true
 tilted_disk = true
+tells_time = true
 crosses_horizon = true
 
 [numbers.camera_lag]  # of the ingoing azimuth behind φ, where the camera is
@@ -27,7 +28,7 @@ struct Orbit {
     float a_lambda;
     float drag;    // −a, or a for negative energy
     float scale;   // 1/√(K + 1), the Mino time of about one radian
-#if CAMERA_FALLS
+#if CAMERA_FALLS || RAYS_LIGHT_TRAVEL
     float energy;  // its sign; 0 for light that has never been outside
 #endif
 };
@@ -38,9 +39,13 @@ struct State {
     vec3 n;
     vec3 n_rate;
     float twist;
+#if RAYS_LIGHT_TRAVEL
+    float time;    // since the camera, in M
+#endif
 };
 
 #include "common/radial_mino.glsl"
+#include "common/ray_time.glsl"
 
 Orbit ray_orbit(RayStart start) {
     float a = hole_spin;
@@ -52,15 +57,15 @@ Orbit ray_orbit(RayStart start) {
     bool came_in = start.w * hole_w_factors.x < 1.0 || start.energy * (2.0 * hole_w_factors.x - a * start.lambda) > 0.0;
     return Orbit(c, k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0), came_in ? start.energy : 0.0);
 #else
-    return Orbit(c, k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0));
+    return Orbit(c, k, a * start.lambda, -a * start.energy, inversesqrt(max(k, 0.0) + 1.0) AND_TIME(start.energy));
 #endif
 }
 
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
 #if CAMERA_FALLS
-    return State(start.w, start.w_rate, start.n, orbit.energy == 0.0 ? vec3(0.0) : start.n_rate, -camera_lag);  // what never was outside crosses nothing
+    return State(start.w, start.w_rate, start.n, orbit.energy == 0.0 ? vec3(0.0) : start.n_rate, -camera_lag AND_TIME(0.0));  // what never was outside crosses nothing
 #else
-    return State(start.w, start.w_rate, start.n, start.n_rate, 0.0);
+    return State(start.w, start.w_rate, start.n, start.n_rate, 0.0 AND_TIME(0.0));
 #endif
 }
 
@@ -70,11 +75,11 @@ State ray_rhs(Orbit orbit, State s) {
     float a2_nz = a * a * s.n.z;
     vec3 n_force = -(orbit.k + 2.0 * a2_nz * s.n.z) * s.n;
     n_force.z += a2_nz;
-    return State(s.w_rate, w_force, s.n_rate, n_force, 0.0);
+    return State(s.w_rate, w_force, s.n_rate, n_force, 0.0 AND_TIME(0.0));
 }
 
 State state_step(State s, float h, State k) {
-    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.n + h * k.n, s.n_rate + h * k.n_rate, s.twist);
+    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.n + h * k.n, s.n_rate + h * k.n_rate, s.twist AND_TIME(s.time));
 }
 
 #if CAMERA_FALLS
@@ -107,7 +112,11 @@ float whole_twist(State s) {
 
 // The twist drives nothing, so it is integrated after the step: Gauss with two points, at the cubic Hermite values of w there, and both
 // quotients over one denominator. One division a step, and of fourth order whatever the integrator.
+#if RAYS_LIGHT_TRAVEL
+#define RAY_QUADRATURE ray_twist_and_time
+#else
 #define RAY_QUADRATURE ray_twist
+#endif
 void ray_twist(Orbit orbit, State a, float h, inout State b) {
     float middle = 0.5 * (a.w + b.w) + h * (1.0 / 12.0) * (a.w_rate - b.w_rate);
     float aside = 0.384900179 * (b.w - a.w) - 0.0481125224 * h * (a.w_rate + b.w_rate);  // 2/√27, 1/(4√27)
@@ -124,16 +133,45 @@ void ray_twist(Orbit orbit, State a, float h, inout State b) {
     b.twist = a.twist + 0.5 * h * orbit.drag * (rate.x * factors.y + rate.y * factors.x) / (factors.x * factors.y);
 }
 
+#if RAYS_LIGHT_TRAVEL
+TimeConstants time_constants(Orbit orbit) {
+    return TimeConstants(orbit.c.y, orbit.c.z, orbit.a_lambda, orbit.energy);
+}
+
+TimeEnd time_end(Orbit orbit, State s) {
+    State rate = ray_rhs(orbit, s);
+    return TimeEnd(vec2(s.w, s.n.z), vec2(s.w_rate, s.n_rate.z), vec2(rate.w_rate, rate.n_rate.z));
+}
+
+void ray_twist_and_time(Orbit orbit, State a, float h, inout State b) {
+    ray_twist(orbit, a, h, b);
+    b.time = a.time + step_time(time_constants(orbit), time_end(orbit, a), time_end(orbit, b), h);
+}
+
+float ray_delay(State s) {
+    return 0.5 * s.time;
+}
+
+float ray_delay_rate(Orbit orbit, State s) {
+    return 0.5 * time_rate(time_constants(orbit), time_end(orbit, s));
+}
+
+State ray_delayed(State s, float delay) {
+    s.time += 2.0 * delay;
+    return s;
+}
+#endif
+
 State state_kick(State s, float h, State k) {
-    return State(s.w, s.w_rate + h * k.w_rate, s.n, s.n_rate + h * k.n_rate, s.twist);
+    return State(s.w, s.w_rate + h * k.w_rate, s.n, s.n_rate + h * k.n_rate, s.twist AND_TIME(s.time));
 }
 
 State state_push(State s, float h2, State k) {
-    return State(s.w + h2 * k.w_rate, s.w_rate, s.n + h2 * k.n_rate, s.n_rate, s.twist);
+    return State(s.w + h2 * k.w_rate, s.w_rate, s.n + h2 * k.n_rate, s.n_rate, s.twist AND_TIME(s.time));
 }
 
 State state_drift(State s, float h) {
-    return State(s.w + h * s.w_rate, s.w_rate, s.n + h * s.n_rate, s.n_rate, s.twist);
+    return State(s.w + h * s.w_rate, s.w_rate, s.n + h * s.n_rate, s.n_rate, s.twist AND_TIME(s.time));
 }
 
 float state_difference(Orbit orbit, State a, State b) {

@@ -12,6 +12,7 @@ spins = false
 second_order = true
 exact = true
 tilted_disk = true
+tells_time = true
 ---*/
 // Units M = 1. With φ = √K τ the equation reads w'' = K w (3 w − 1): the same steps in φ, and still a sensible equation where b = √K is 0
 // and φ stands still. The place is n cos φ + aside sin φ, so that disk crossings lie at known φ.
@@ -28,9 +29,13 @@ struct State {
     float b;     // constant, as are n and aside: the angle's rate
     vec3 n;      // where the march began, and at right angles to it
     vec3 aside;
+#if RAYS_LIGHT_TRAVEL
+    float time;  // since the camera, in M
+#endif
 };
 
 #include "common/radial_mino.glsl"
+#include "common/ray_time.glsl"
 
 Orbit ray_orbit(RayStart start) {
     float k = dot(start.n_rate, start.n_rate);
@@ -39,32 +44,61 @@ Orbit ray_orbit(RayStart start) {
 
 State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
     float b = sqrt(orbit.k);
-    return State(start.w, start.w_rate, 0.0, b, start.n, b > 0.0 ? start.n_rate / b : vec3(0.0));
+    return State(start.w, start.w_rate, 0.0, b, start.n, b > 0.0 ? start.n_rate / b : vec3(0.0) AND_TIME(0.0));
 }
 
 State ray_rhs(Orbit orbit, State s) {
-    return State(s.w_rate, orbit.k * s.w * (3.0 * s.w - 1.0), s.b, s.b, s.n, s.aside);
+    return State(s.w_rate, orbit.k * s.w * (3.0 * s.w - 1.0), s.b, s.b, s.n, s.aside AND_TIME(s.time));
 }
 
 State state_step(State s, float h, State k) {
-    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.angle + h * k.angle, s.b, s.n, s.aside);
+    return State(s.w + h * k.w, s.w_rate + h * k.w_rate, s.angle + h * k.angle, s.b, s.n, s.aside AND_TIME(s.time));
 }
 
 State state_kick(State s, float h, State k) {
-    return State(s.w, s.w_rate + h * k.w_rate, s.angle, s.b, s.n, s.aside);
+    return State(s.w, s.w_rate + h * k.w_rate, s.angle, s.b, s.n, s.aside AND_TIME(s.time));
 }
 
 State state_push(State s, float h2, State k) {
-    return State(s.w + h2 * k.w_rate, s.w_rate, s.angle, s.b, s.n, s.aside);
+    return State(s.w + h2 * k.w_rate, s.w_rate, s.angle, s.b, s.n, s.aside AND_TIME(s.time));
 }
 
 State state_drift(State s, float h) {
-    return State(s.w + h * s.w_rate, s.w_rate, s.angle + h * s.b, s.b, s.n, s.aside);
+    return State(s.w + h * s.w_rate, s.w_rate, s.angle + h * s.b, s.b, s.n, s.aside AND_TIME(s.time));
 }
 
 float state_difference(Orbit orbit, State a, State b) {
     return abs(a.w - b.w) / orbit.scale + abs(a.w_rate - b.w_rate) + abs(a.angle - b.angle);
 }
+
+#if RAYS_LIGHT_TRAVEL
+// With a = 0, c₃ = 3K and c₄ = 0.
+TimeConstants time_constants(Orbit orbit) {
+    return TimeConstants(3.0 * orbit.k, 0.0, 0.0, 1.0);
+}
+
+TimeEnd time_end(Orbit orbit, State s) {
+    return TimeEnd(vec2(s.w, 0.0), vec2(s.w_rate, 0.0), vec2(ray_rhs(orbit, s).w_rate, 0.0));
+}
+
+#define RAY_QUADRATURE ray_time
+void ray_time(Orbit orbit, State a, float h, inout State b) {
+    b.time = a.time + step_time(time_constants(orbit), time_end(orbit, a), time_end(orbit, b), h);
+}
+
+float ray_delay(State s) {
+    return 0.5 * s.time;
+}
+
+float ray_delay_rate(Orbit orbit, State s) {
+    return 0.5 * time_rate(time_constants(orbit), time_end(orbit, s));
+}
+
+State ray_delayed(State s, float delay) {
+    s.time += 2.0 * delay;
+    return s;
+}
+#endif
 
 // A whole number of 2⁻¹⁶ radians, so that the angle's sums are exact: else each step is rounded the same way, and many steps add up.
 float ray_plain_step(Orbit orbit, State s) {

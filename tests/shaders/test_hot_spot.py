@@ -56,6 +56,6 @@ def test_a_coarse_picture_gets_as_much_of_its_light(renderer: Renderer) -> None:
 
 def test_it_keeps_out_of_the_innermost_stable_orbit_and_a_model_without_spin_has_none() -> None:
     isco = float(relativity.isco_radius(0.6))
-    assert hot_spot.place(0.5, 0.0, "prograde", 0.0, 0.6, "kerr", True, 0.0) == (1.0, 0.0, isco, 0.0)
+    assert hot_spot.place(0.5, 0.0, "prograde", 0.0, 0.6, "kerr", True, 0.0) == (1.0, 0.0, isco, relativity.orbital_frequency(isco, 0.6))
     assert hot_spot.place(0.5, 90.0, "prograde", 0.0, 0.6, "schwarzschild", True, 0.0)[2] == 3.0
     assert hot_spot.place(0.5, 0.0, "prograde", 0.0, 0.6, "schwarzschild", False, 0.0)[2] == isco
