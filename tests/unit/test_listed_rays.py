@@ -35,7 +35,7 @@ def test_the_columns_of_crossings_come_in_turn_and_those_of_momenta_at_the_end(t
     rows = written(tmp_path / "hits.csv", listed_rays.trace_by_reference(scene_of(), RAYS))
     assert list(rows[0]) == (
         "fate theta phi steps evaluations r0 phi0 g0 r1 phi1 g1 r2 phi2 g2 lambda theta0 k_r0 k_theta0 theta1 k_r1 k_theta1 theta2 k_r2 k_theta2 energy "
-        "intensity0 intensity1 intensity2"
+        "intensity0 intensity1 intensity2 t0 t1 t2"
     ).split()
 
 
