@@ -124,8 +124,8 @@ def scene_with_spot(delayed: bool, **changes: object) -> Scene:
 
 
 def twin_s_curves(scene: Scene, when: np.ndarray, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-    """The light that the spot of a white, see-through disk adds, from the twin's crossings through the middles of the pixels, at once and as late as it arrives; each
-    over its mean."""
+    """The light that the spot of a white, see-through disk adds, from the twin's crossings through the middles of the pixels, at once and as late
+    as it arrives; each over its mean."""
     found = listed_rays.trace_by_reference(scene, listed_rays.pixel_rays(scene, size).reshape(-1, 2))
     made = plan(scene)
     with np.errstate(invalid="ignore"):
