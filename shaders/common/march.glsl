@@ -40,6 +40,12 @@
 #include "common/march_step.glsl"
 #include "common/disk_plane.glsl"
 
+#if RAYS_LIGHT_TRAVEL
+#define AND_DELAY(state) , ray_delay(state)
+#else
+#define AND_DELAY(state)
+#endif
+
 #if ORDERS > 0
 // Of the sign of the height above the disk's plane, and its rate.
 vec2 plane_height(Orbit orbit, State s) {
@@ -99,7 +105,7 @@ void find_crossing(Orbit orbit, State a, State b, float h, float end, inout Hits
 #else
     vec2 point = ray_plane_point(there);
 #endif
-    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there) AND_TIME(ray_delay(there)));
+    if (dot(point, point) > crossing_r_min * crossing_r_min) add_crossing(hits, point, ray_momentum(orbit, there) AND_DELAY(there));
 }
 #endif
 
