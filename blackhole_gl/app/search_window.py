@@ -26,11 +26,16 @@ class SearchWindow:
         self._text = ""
         self._chosen = 0
         self._entries: Sequence[search.Entry] | None = None  # None while the window is closed
+        self._has_keys = False
+
+    def expects_keys(self, state: WindowState) -> bool:
+        """Whether it is opening, and keys are meant for its field, which takes them some frames later: where those are long, words are typed meanwhile."""
+        return state.show_search and not self._has_keys
 
     def draw(self, state: WindowState, make: Callable[[], Sequence[search.Entry]]) -> None:
         """Draws the window when it is wanted. `make`: makes what can be found, once each time it opens."""
         if not state.show_search:
-            self._entries = None
+            self._entries, self._has_keys = None, False
             return
         opens = self._entries is None
         if self._entries is None:
@@ -50,6 +55,7 @@ class SearchWindow:
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(-1.0)
         entered, text = imgui.input_text_with_hint("##wanted", "A setting, preset, view or command", self._text, imgui.InputTextFlags_.enter_returns_true.value)
+        self._has_keys |= imgui.is_item_active()
         if text != self._text:
             self._text, self._chosen = text, 0
         fit = search.found(entries, self._text)

@@ -15,6 +15,7 @@ from imgui_bundle import hello_imgui, imgui, immapp  # before glfw: on Linux the
 import glfw
 import moderngl
 
+from ..rendering.context import hear_glfw
 from ..resources import user_config_dir
 from ..scene import Scene
 from . import (
@@ -229,6 +230,7 @@ class Window:
         self._gl = moderngl.create_context(require=330)
         self._picture = Picture(self._gl, self._make_renderer(self._gl), Preparation(self.warm_up.submit))
         self._full_screen = FullScreen(glfw_window.handle())
+        hear_glfw(glfw)  # the window's library prints what GLFW says, as of a clipboard that is empty
         self._thumbnails = Thumbnails(self._gl)
 
     @property
@@ -264,6 +266,8 @@ class Window:
         dt = min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
         ways, sticks = self._mouse.poll(view.height), gamepad.poll()
         pressed, held = self._shortcuts.poll(state.panel_keys, self._mouse.looks)
+        if self._search.expects_keys(state):
+            pressed, held = [], []
         for name in pressed:
             self.do(name)
         self._escape.poll(state)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
 import time
 
 from imgui_bundle import imgui
 
 # isort: split
+import glfw
 import numpy as np
 from hands import Hands, wait
 from PIL import Image
@@ -92,6 +95,35 @@ def search_opens_a_group_and_marks_the_row(hands: Hands) -> None:
     panel = imgui.internal.find_window_by_name(PANEL)
     assert panel.inner_clip_rect.min.y <= row.rect_full.min.y and row.rect_full.max.y <= panel.inner_clip_rect.max.y, "the panel has scrolled to it"
     assert hands.state.sought.until is not None, "and marked it"
+
+
+def what_glfw_complains_of_is_not_on_the_terminal(hands: Hands) -> None:
+    """As of a clipboard that is empty; here of a key that there is not."""
+    kept = os.dup(2)
+    with tempfile.TemporaryFile() as said:
+        os.dup2(said.fileno(), 2)
+        try:
+            glfw.get_key_scancode(-5)
+        finally:
+            os.dup2(kept, 2)
+            os.close(kept)
+        said.seek(0)
+        assert said.read() == b""
+
+
+def keys_struck_while_the_search_opens_are_no_commands(hands: Hands) -> None:
+    spin, search = hands.scene.hole.spin, hands.window._search
+    draw, search.draw = search.draw, lambda *_: None  # as in the frame after a click on the bar: the field is not there yet
+    hands.state.show_search = True
+    hands.press(Key.s)
+    search.draw = draw
+    hands.context.yield_(4)
+    assert hands.state.show_search and hands.scene.hole.spin == spin
+    hands.context.key_press(Key.escape)
+    hands.context.yield_(4)
+    assert not hands.state.show_search
+    hands.press(Key.s)
+    assert hands.scene.hole.spin != spin
 
 
 def search_finds_values_of_things(hands: Hands) -> None:
