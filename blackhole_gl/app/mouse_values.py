@@ -77,7 +77,7 @@ def _draw(told: list[str], mouse: Corner, left_top: Corner, size: Corner) -> Non
     corner = mouse[0] + (-1.2 if right else 1.2) * em, mouse[1] + (-0.6 if below else 1.2) * em
     imgui.set_next_window_pos(corner, imgui.Cond_.always.value, (float(right), float(below)))
     imgui.set_next_window_bg_alpha(0.8)
-    imgui.begin("##values", None, overlay.UNTOUCHED)
+    overlay.begin_above("##values", overlay.UNTOUCHED)
     for line in told:
         imgui.text_colored(theme.TEXT, line)
     imgui.end()

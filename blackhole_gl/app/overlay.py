@@ -154,7 +154,13 @@ def _begin_message(name: str, corner: Corner, width: float, flags: int) -> None:
     imgui.set_next_window_pos(corner, imgui.Cond_.always.value, (0.0, 1.0))
     imgui.set_next_window_size_constraints((0.0, 0.0), (width, 1e4))
     imgui.set_next_window_bg_alpha(0.85)
-    imgui.begin(f"{name}##message", None, flags)
+    begin_above(f"{name}##message", flags)
+
+
+def begin_above(name: str, flags: int) -> None:
+    """Begins a window that tells something now, above those that were opened to stay: the path view would hide it."""
+    imgui.begin(name, None, flags)
+    imgui.internal.bring_window_to_display_front(imgui.internal.get_current_window())
 
 
 def _body(text: str, is_error: bool, width: float) -> None:

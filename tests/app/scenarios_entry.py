@@ -97,6 +97,17 @@ def search_opens_a_group_and_marks_the_row(hands: Hands) -> None:
     assert hands.state.sought.until is not None, "and marked it"
 
 
+def a_notice_lies_above_windows_that_were_opened(hands: Hands) -> None:
+    hands.press(Key.h)
+    hands.state.say("Something happened.")
+    hands.context.yield_(3)
+    hands.context.window_focus("//Help")
+    hands.context.yield_(2)
+    notice, helping = (imgui.internal.find_window_by_name(name) for name in ("Notice##message", "Help"))
+    assert notice.active and helping.active
+    assert imgui.internal.find_window_display_index(notice) > imgui.internal.find_window_display_index(helping)
+
+
 def what_glfw_complains_of_is_not_on_the_terminal(hands: Hands) -> None:
     """As of a clipboard that is empty; here of a key that there is not."""
     kept = os.dup(2)
