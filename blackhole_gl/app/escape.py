@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
+from . import widgets
 from .state import WindowState
 
 _PUT_AWAY = "panel_keys", "show_search", "show_picture_window", "show_help"
@@ -18,7 +19,7 @@ class Escape:
 
     def poll(self, state: WindowState) -> None:
         """Does so where it is pressed. Call once in each frame."""
-        had_popup, self._had_popup = self._had_popup, imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
+        had_popup, self._had_popup = self._had_popup, widgets.list_is_open()
         if not imgui.is_key_pressed(imgui.Key.escape, False) or imgui.get_io().want_text_input:
             return
         if had_popup or self._had_popup:  # where keys work the panel, imgui has closed it

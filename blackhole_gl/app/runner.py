@@ -72,14 +72,15 @@ def parameters(window: Callbacks, size: tuple[int, int]) -> hello_imgui.RunnerPa
     return params
 
 
-def work_panel_by_keys(on: bool) -> None:
-    """Gives TAB, the arrows, SPACE and ENTER to the panel, beginning with the frame to come, or takes them back. Call before each frame."""
+def work_by_keys(panel: bool, opened_list: bool) -> None:
+    """Gives TAB, the arrows, SPACE and ENTER to the panel or to a list that is open, beginning with the frame to come, or takes them back. Call before each
+    frame."""
     io, docking = imgui.get_io(), hello_imgui.get_runner_params().docking_params
     keyboard, no_keys = imgui.ConfigFlags_.nav_enable_keyboard.value, imgui.WindowFlags_.no_nav_inputs.value
-    was_on = bool(io.config_flags & keyboard)
-    io.config_flags = io.config_flags | keyboard if on else io.config_flags & ~keyboard
-    docking.dockable_window_of_name(PANEL).imgui_window_flags = 0 if on else no_keys
-    if on and not was_on:
+    window = docking.dockable_window_of_name(PANEL)
+    had_panel, window.imgui_window_flags = window.imgui_window_flags != no_keys, 0 if panel else no_keys
+    io.config_flags = io.config_flags | keyboard if panel or opened_list else io.config_flags & ~keyboard
+    if panel and not had_panel:
         docking.focus_dockable_window(PANEL)
         imgui.internal.set_nav_cursor_visible_after_move()
 

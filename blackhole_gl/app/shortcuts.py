@@ -90,7 +90,7 @@ class Shortcuts:
         """The actions pressed in this frame, and those held. Call once in each frame.
 
         Args:
-            panel_keys: whether the keys without a character work the panel.
+            panel_keys: whether the keys without a character work the panel, or a list that is open.
             flying: whether keys are those of free flight first.
         """
         if imgui.get_io().want_text_input:

@@ -239,7 +239,7 @@ def _is_combo_reset() -> bool:
     """Whether the combo that is to be drawn next is double-clicked: the first click opens its list, which then has the mouse."""
     low, size = imgui.get_cursor_screen_pos(), (imgui.calc_item_width(), imgui.get_frame_height())
     over = imgui.is_mouse_hovering_rect(low, (low.x + size[0], low.y + size[1]))
-    return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left) and imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
+    return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left) and list_is_open()
 
 
 def _choice(item: Field, value: str, unfit: Mapping[str, str], picture: DrawPicture | None) -> str | None:
@@ -266,3 +266,8 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str], picture: DrawPict
                 imgui.set_tooltip(unfit.get(option, plug_ins[option].summary))
         imgui.end_combo()
     return picked
+
+
+def list_is_open() -> bool:
+    """Whether a picker's list or another popup is open."""
+    return bool(imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value))

@@ -36,6 +36,7 @@ from . import (
     shader_watch,
     timeline_window,
     view_scale,
+    widgets,
     window_settings,
 )
 from .area import Area
@@ -250,7 +251,7 @@ class Window:
         params.docking_params.dockable_window_of_name(runner.PANEL).is_visible = self.state.show_panel
         params.callbacks.edges_toolbars = {hello_imgui.EdgeToolbarType.top: self._bar} if self.state.show_panel else {}
         imgui.get_style().font_scale_main = self.kept.text_size
-        runner.work_panel_by_keys(self.state.panel_keys)
+        runner.work_by_keys(self.state.panel_keys, widgets.list_is_open())
         by_view = any(part.busy(self.state) for part in (self.live_chart, self.line_plot, self.side_by_side))
         measuring = by_view or self.path_view.busy or self.picture_window.busy
         busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
@@ -265,7 +266,7 @@ class Window:
         passed = imgui.get_io().delta_time
         dt = min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
         ways, sticks = self._mouse.poll(view.height), gamepad.poll()
-        pressed, held = self._shortcuts.poll(state.panel_keys, self._mouse.looks)
+        pressed, held = self._shortcuts.poll(state.panel_keys or widgets.list_is_open(), self._mouse.looks)
         if self._search.expects_keys(state):
             pressed, held = [], []
         for name in pressed:

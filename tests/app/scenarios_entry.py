@@ -281,6 +281,22 @@ def without_a_dialog_the_path_is_typed(hands: Hands) -> None:
         file_dialog.is_there = there
 
 
+def a_list_that_the_mouse_opened_has_the_arrows(hands: Hands) -> None:
+    before = hands.scene
+    hands.context.item_click(f"//{PANEL}/values of camera/##camera.observer")
+    hands.context.yield_(3)
+    assert imgui.internal.find_window_by_name("##Combo_00").active
+    for key in (Key.down_arrow, Key.enter):
+        hands.context.key_press(key)
+        hands.context.yield_(3)
+    assert not imgui.internal.find_window_by_name("##Combo_00").active
+    assert hands.scene.camera.observer != before.camera.observer
+    assert hands.scene.camera.inclination_deg == before.camera.inclination_deg and not hands.state.panel_keys
+    hands.press(Key.down_arrow)
+    hands.settle()
+    assert hands.scene.camera.inclination_deg != before.camera.inclination_deg, "closed, it lets them turn the camera again"
+
+
 def panel_by_keys_alone(hands: Hands) -> None:
     """F6, then arrows to the disk's switch, SPACE; a list opens, is left and the keys are the picture's again."""
     before = hands.scene
