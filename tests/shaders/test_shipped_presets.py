@@ -75,7 +75,8 @@ def test_no_quality_draws_a_wrong_fate_or_the_plan_says_so(renderer: Renderer, n
     known: dict[tuple, np.ndarray] = {}  # levels differ in the picture more than in the rays
 
     def fates(made: Plan) -> np.ndarray:
-        rays = made.method, made.max_steps, made.step_length, made.step_angle
+        control = made.step_control.parameters if made.step_control else ()
+        rays = made.method, made.max_steps, made.step_length, made.step_angle, *map(made.scene.get, control)
         if rays not in known:
             known[rays] = _fates(renderer, made)
         return known[rays]
