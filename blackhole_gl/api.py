@@ -1,7 +1,7 @@
 """What ``import blackhole_gl as bh`` offers: scenes in, arrays out. It needs no display, and none of it needs a word of OpenGL.
 
 Every function may be called from any thread, and from processes however they were started; what several ask for at once is done one after the other. Sizes are
-(width, height) in pixels, each 1 to 16384; arrays of pictures have their top row first. Numbers may be NumPy's.
+(width, height) in pixels, each 1 to 32768; arrays of pictures have their top row first. Numbers may be NumPy's.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .output import png
 from .physics.screen_curves import ScreenCurve, critical_curve, isoradials
 from .planning import Plan
 from .planning import plan as make_plan
-from .rendering import context
+from .rendering import context, still_files
 from .rendering.annotation import annotated
 from .rendering.frame import Renderer as _Renderer
 from .scene import Scene, SceneError
@@ -41,7 +41,7 @@ from .scene.lengths import UNITS
 from .scene.presets import PresetInfo
 from .shapes import Float, Int
 
-_MOST_SIDE = 16384
+_MOST_SIDE = 32768
 _RAYS_AT_ONCE = 1 << 18  # that are listed: 80 bytes of textures each
 _IN_NOTEBOOKS = (640, 360)
 
@@ -270,12 +270,14 @@ def save(
     samples: SupportsIndex | None = None,
     *,
     lengths: str = "r_s",
+    linear: bool = False,
 ) -> Path:
     """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
     ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay.
 
     Args:
         lengths: unit of all lengths in a preset, ``r_s`` or ``M``; `load` reads both.
+        linear: a ``.png`` of linear radiance, 16 bits a channel, of which 65535 stands for a radiance of 8.
 
     Raises:
         ValueError: another suffix or unit, or one whose library is not there; as in `render`.
@@ -290,7 +292,7 @@ def save(
     if suffix in layers.SUFFIXES:
         layers.write(path, _shared._thread.call(layers.measured, *_asked(scene, size, time, samples)), scene, float(time))
     elif suffix == ".png":
-        png.write(path, render(scene, size, time, samples), preset_files.picture_text(scene, float(time), path.absolute().parent))
+        _shared._thread.call(still_files.save, path, *_asked(scene, size, time, samples), linear=linear)
     else:
         raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is .png, .toml, {', '.join(layers.SUFFIXES)}")
     return path

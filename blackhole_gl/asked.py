@@ -89,12 +89,12 @@ def size_of(text: str) -> tuple[int, int]:
     """(width, height) of ``1280x720``.
 
     Raises:
-        ValueError: not of that form, or not 1…16384 pixels each.
+        ValueError: not of that form, or not 1…32768 pixels each.
     """
     match = re.fullmatch(r"(\d{1,6})[x×](\d{1,6})", text.strip())
     size = (int(match[1]), int(match[2])) if match else (0, 0)
-    if not all(1 <= side <= 16384 for side in size):
-        raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 16384, e.g. 1280x720")
+    if not all(1 <= side <= 32768 for side in size):
+        raise ValueError(f"--size: got {text!r}; allowed is WIDTHxHEIGHT, each 1 to 32768, e.g. 1280x720")
     return size
 
 

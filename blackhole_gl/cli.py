@@ -116,6 +116,7 @@ def render(
     supersample: Annotated[
         int | None, Option(least=1, most=16, help="Rays a pixel along each axis. When not given: as the scene's quality has it.")
     ] = None,
+    linear: Annotated[bool, Option("--linear", help="A PNG of linear radiance, 16 bits a channel, of which 65535 stands for a radiance of 8.")] = False,
     flux: Annotated[bool, Option("--flux", help="Print its flux, and what finer steps and pixels change in it. --out may then be left out.")] = False,
     backend: Backend = "auto",
 ) -> None:
@@ -128,7 +129,9 @@ def render(
         refuse_unwritable(out, (".png", ".exr", ".fits", ".npz"), "a PNG picture, or layers")
     refuse_unmet(scene, set_)
     if out is not None:
-        _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend)
+        if linear and out.suffix.lower() not in ("", ".png"):
+            raise SceneError("--linear", f"got {out.suffix}, which holds linear radiance anyway; allowed is .png")
+        _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend, linear=linear)
     if flux:
         _print_flux(scene, size_of(size), time_of(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
 
@@ -267,19 +270,20 @@ def _last_scene() -> tuple[Scene, float] | None:
         return None
 
 
-def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:
+def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str, *, linear: bool = False) -> None:
     if out.suffix.lower() in (".exr", ".fits", ".npz"):
         _render_layers(scene, size, time, out, samples, backend)
         return
-    from .output import png
-    from .rendering.annotation import annotated
+    from .rendering import still_files
 
     tell_warnings(scene)
     renderer = renderer_by(backend)
+    if linear:
+        still_files.write_linear(renderer, out, scene, time, size, samples)
+        return
     with Progress("rendering") as progress:
-        renderer.render_still(scene, time, size, samples, progress)
-    pixels = annotated(renderer.read_rgb8(), scene, renderer.view_of(scene))
-    png.write(out, pixels, preset_files.picture_text(scene, time, out.absolute().parent))
+        for share in still_files.write(renderer, out, scene, time, size, samples):
+            progress(share)
 
 
 def _render_layers(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:

@@ -16,7 +16,7 @@ from . import number_lists, reference
 from .glsl.declared import Fate
 from .number_lists import Allowed, ListError, NumberList
 from .output.files import write_whole
-from .physics import observer, observer_frames, tilted_disk
+from .physics import observer, observer_frames, projection, tilted_disk
 from .physics.space_time import ray_model, space_time
 from .planning import plan
 from .rendering.frame import Renderer
@@ -100,13 +100,9 @@ def local_vectors(rays: Float[np.ndarray, "N 2"], scene: Scene) -> Float[np.ndar
 def pixel_rays(scene: Scene, size: tuple[int, int]) -> Float[np.ndarray, "height width 2"]:
     """The rays through the middles of the pixels of a picture of `size`, top row first, (height, width, 2) as `read` gives them."""
     width, height = size
-    camera = scene.camera
-    far = columns(scene) == SCREEN
-    half_height = 0.5 * camera.field_m if far else math.tan(math.radians(0.5 * camera.fov_deg))
-    right = (2.0 * np.arange(width) + 1.0 - width) * half_height / height
-    up = (height - 1.0 - 2.0 * np.arange(height)) * half_height / height
-    seen = np.stack(np.broadcast_arrays(-1.0, -up[:, None], right), axis=-1) @ observer.look_rotation(camera).T
-    if far:
+    places = np.stack(np.meshgrid(np.arange(width) + 0.5, height - 0.5 - np.arange(height)), axis=-1)
+    seen = projection.directions(scene.camera, size, places) @ observer.look_rotation(scene.camera).T
+    if columns(scene) == SCREEN:
         return np.stack([seen[..., 2], -seen[..., 1]], axis=-1)
     return np.stack(observer.screen_angles(seen), axis=-1)
 

@@ -163,7 +163,7 @@ void main() {
     brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
     vec2 part = (pieces ? vec2(here) + 0.5 : place * finer) / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
-    glowing = post_bloom_intensity * textureLod(glow, part, 0.0).rgb;
+    glowing = post_bloom_intensity * textureLod(glow, part * vec2(textureSize(radiance, 0)) / vec2(4 * textureSize(glow, 0)), 0.0).rgb;
 #else
     glowing = vec3(0.0);
 #endif

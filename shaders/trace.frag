@@ -37,7 +37,16 @@ void main() {
 #if RAYS_LISTED
     vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
 #else
-    vec3 local = pixel_direction(picture_place(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5));
+    vec2 place = picture_place(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5);
+    vec3 local = pixel_direction(place);
+#if !CAMERA_PROJECTION_PERSPECTIVE
+    if (!in_projection(place)) { // black, as what the hole hides
+        Hits none = no_hits(0.0);
+        none.fate = CAPTURED;
+        store_hits(none);
+        return;
+    }
+#endif
 #endif
     store_hits(trace_ray(ray_start(local)));
 }

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from blackhole_gl.physics.shear import RENEWAL_PERIOD
-from blackhole_gl.rendering.frame import TILE, Renderer
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.stills import TILE
 from blackhole_gl.scene import Scene, fields, presets
 from studies.stability import FAILS, FINE, Judgement
 

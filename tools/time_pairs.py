@@ -21,7 +21,8 @@ from typing import Any
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.targets import Drawing, Targets
 from blackhole_gl.rendering.context import create_headless
-from blackhole_gl.rendering.frame import FrameReport, Renderer
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.frame_report import FrameReport
 from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 

@@ -45,7 +45,7 @@ class Picture:
         preparation: when programs may be compiled.
 
     Attributes:
-        report: of the last picture rendered, a ``rendering.frame.FrameReport``; None before the first.
+        report: of the last picture rendered, a ``rendering.frame_report.FrameReport``; None before the first.
         shown: the scene of that picture, which may lag behind that of the last `update`.
         rays: what became of its rays, as of the last `count_rays`.
         scale: width and height of the last picture over those of its area.

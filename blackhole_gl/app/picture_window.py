@@ -18,7 +18,7 @@ from .state import WindowState
 from .still import Order, Still
 
 TITLE = "Picture"
-MOST_SIDE, MOST_SAMPLES = 16384, 16
+MOST_SIDE, MOST_SAMPLES = 32768, 16
 _SIZES = ((1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (7680, 4320), (2048, 2048))
 
 

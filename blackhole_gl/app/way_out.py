@@ -55,7 +55,7 @@ def out_of_sight(scene: Scene, aspect: float) -> str:
     extent = camera.field_m if math.isinf(camera.distance) else camera.distance
     if extent > _A_DOT * range_by_hand(scene)[1]:
         return "The hole is only a dot from here."
-    if math.isinf(camera.distance):
+    if math.isinf(camera.distance) or camera.projection != "perspective":
         return ""
     observer = observe(scene)
     away = math.acos(min(max(-float((observer.hole @ observer.look)[0]), -1.0), 1.0))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..physics import angular_size
+from ..physics import angular_size, projection
 from ..planning import plan
 from ..rendering.frame import Renderer
 from ..scene import Camera, Scene, SceneError, met
@@ -82,6 +82,8 @@ def _summed(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int]
 def pixel_angles(camera: Camera, size: tuple[int, int]) -> np.ndarray:
     """Solid angle of each pixel of a picture of `size` (width, height), float64 (height, width): in sr, or in M² for a camera at infinity."""
     width, height = size
+    if not projection.is_perspective(camera):
+        raise SceneError("camera.projection", f"got {camera.projection}; fluxes are summed over a plane picture: allowed is {projection.PERSPECTIVE}")
     if math.isinf(camera.distance):
         return np.full((height, width), (camera.field_m / height) ** 2)
     side = 2.0 * math.tan(math.radians(0.5 * camera.fov_deg)) / height

@@ -5,15 +5,28 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 # Names of standard output. Opened as a file, what it was redirected to would be begun anew.
 _STANDARD_OUTPUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 
 
 def write_whole(path: str | Path, data: bytes) -> None:
-    """Puts `data` at `path`: the old file stays until the new one is complete.
+    """Puts `data` at `path`, as `opened_whole` does.
+
+    Raises:
+        OSError: as there.
+    """
+    with opened_whole(path) as stream:
+        stream.write(data)
+
+
+@contextmanager
+def opened_whole(path: str | Path) -> Generator[BinaryIO]:
+    """A stream into the file at `path`: the old file stays until the new one is complete, which it is when the context ends without an exception.
 
     Missing parent folders are made. A link is followed. What is not a regular file (``/dev/null``, a pipe) is written to directly; ``-`` is standard output.
 
@@ -22,23 +35,27 @@ def write_whole(path: str | Path, data: bytes) -> None:
     """
     if str(path) in _STANDARD_OUTPUT:
         sys.stdout.flush()
-        sys.stdout.buffer.write(data)
+        yield sys.stdout.buffer
         sys.stdout.buffer.flush()
         return
     try:
         if os.path.exists(path) and not os.path.isfile(path):
-            Path(path).write_bytes(data)
+            with open(path, "wb") as stream:
+                yield stream
         else:
-            _replace(Path(os.path.realpath(path)), data)
+            with _replaced(Path(os.path.realpath(path))) as stream:
+                yield stream
     except OSError as error:
         raise type(error)(error.errno, error.strerror, str(path)) from None  # by the name that it was asked for
 
 
-def _replace(target: Path, data: bytes) -> None:
+@contextmanager
+def _replaced(target: Path) -> Generator[BinaryIO]:
     target.parent.mkdir(parents=True, exist_ok=True)
     part = target.with_name(f".{target.name[:100]}.{os.getpid()}.part")
     try:
-        part.write_bytes(data)
+        with open(part, "wb") as stream:
+            yield stream
         os.replace(part, target)
     finally:
         part.unlink(missing_ok=True)

@@ -6,21 +6,30 @@ bytes: no time of writing is stored.
 
 from __future__ import annotations
 
-import functools
 import io
 import os
 import struct
 import zlib
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Generator, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
 
-from .files import write_whole
+from .files import opened_whole, write_whole
 
 KEYWORD = "blackhole_gl.scene"
 
+WHITE_KEYWORD = "blackhole_gl.white"
+"""Of 16-bit pictures: the radiance that 65535 stands for."""
+
+_XMP_KEYWORD = "XML:com.adobe.xmp"
+_REC_709 = (31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000)  # white, red, green, blue: x and y in 1/100,000, §11.3.2.1
+_GAMMA_OF_LINEAR = 100_000
+_MOST_PACKING = 8  # strips that are packed or wait for it
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _SRGB_PERCEPTUAL = b"\x00"
 _SUB, _UP = 1, 2  # kinds of differences, §9.2
@@ -35,43 +44,134 @@ class PngError(ValueError):
     """A file is no PNG, is damaged, or carries no preset; the text says which."""
 
 
-def encode(pixels: np.ndarray, scene_text: str = "") -> bytes:
-    """An 8-bit sRGB PNG.
+class Writer:
+    """A PNG on its way into `stream`: rows are packed on all cores while others are drawn, and few are held.
 
     Args:
-        pixels: (height, width, 3) uint8, display-referred sRGB, top row first.
+        size: (width, height) in pixels.
         scene_text: the preset to carry, TOML; empty for none.
+        xmp: further metadata as an XMP packet; empty for none.
+        white: None of an 8-bit picture in sRGB; else of a 16-bit one the linear light that 65535 stands for, Rec. 709 primaries.
+    """
+
+    def __init__(self, stream: BinaryIO, size: tuple[int, int], scene_text: str = "", xmp: str = "", white: float | None = None):
+        self._stream, self._size, self._kind = stream, size, np.dtype(np.uint8 if white is None else ">u2")
+        self._bytes = 3 * self._kind.itemsize  # of a pixel
+        self._strip_rows = max(_STRIP_BYTES // (self._bytes * size[0]), 1)
+        self._rows, self._ahead = 0, np.empty((0, size[0] * self._bytes), np.uint8)
+        self._above = np.zeros(size[0] * self._bytes, np.uint8)
+        self._pool: ThreadPoolExecutor | None = None
+        self._packing: deque[Future[_Strip]] = deque()
+        self._check = 1, 0
+        stream.write(_SIGNATURE)
+        self._chunk(b"IHDR", struct.pack(">IIBBBBB", *size, 8 * self._kind.itemsize, 2, 0, 0, 0))
+        if white is None:
+            self._chunk(b"sRGB", _SRGB_PERCEPTUAL)
+        else:
+            self._chunk(b"cHRM", struct.pack(">8I", *_REC_709))
+            self._chunk(b"gAMA", struct.pack(">I", _GAMMA_OF_LINEAR))
+            self._chunk(b"tEXt", WHITE_KEYWORD.encode("ascii") + b"\0" + f"{white:.9g}".encode("ascii"))
+        for keyword, text in ((KEYWORD, scene_text), (_XMP_KEYWORD, xmp)):
+            if text:
+                self._chunk(b"iTXt", keyword.encode("ascii") + b"\0\0\0\0\0" + text.encode("utf-8"))
+        self._chunk(b"IDAT", _ZLIB_HEADER)
+
+    def write(self, pixels: np.ndarray) -> None:
+        """Further rows, (rows, width, 3), uint8 or uint16, from the top down; they have to stay as they are until the picture is closed.
+
+        Raises:
+            ValueError: they are of another shape or type, or too many.
+        """
+        kind = self._kind.newbyteorder("=")
+        if pixels.dtype != kind or pixels.ndim != 3 or pixels.shape[1:] != (self._size[0], 3) or self._rows + len(pixels) > self._size[1]:
+            raise ValueError(f"a picture is (height, width, 3) {kind}; got {pixels.shape} {pixels.dtype} for {self._size}")
+        self._rows += len(pixels)
+        rows = np.ascontiguousarray(pixels, self._kind).view(np.uint8).reshape(len(pixels), -1)
+        self._ahead = np.concatenate([self._ahead, rows]) if len(self._ahead) else rows
+        while len(self._ahead) >= self._strip_rows or self._rows == self._size[1] and len(self._ahead):
+            strip, self._ahead = self._ahead[: self._strip_rows], self._ahead[self._strip_rows :]
+            self._pack(strip, last=self._rows == self._size[1] and not len(self._ahead))
+        self._finish(_MOST_PACKING)
+
+    def close(self) -> None:
+        """Ends the picture.
+
+        Raises:
+            ValueError: rows are missing.
+        """
+        if self._rows != self._size[1]:
+            raise ValueError(f"{self._rows} of {self._size[1]} rows were written")
+        self._finish(0)
+        self._chunk(b"IDAT", struct.pack(">I", self._check[0]))
+        self._chunk(b"IEND", b"")
+        self.abandon()
+
+    def abandon(self) -> None:
+        """Lets go of what is not written yet."""
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+        self._pool = None
+
+    def _pack(self, rows: np.ndarray, *, last: bool) -> None:
+        above, self._above = self._above, rows[-1].copy()
+        if last and self._check[1] == 0 and not self._packing:  # the only one
+            self._packing.append(Future())
+            self._packing[0].set_result(_strip(rows, above, self._bytes, last=True))
+            return
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(os.cpu_count())  # zlib and NumPy leave the interpreter to others
+        self._packing.append(self._pool.submit(_strip, rows, above, self._bytes, last=last))
+
+    def _finish(self, most: int) -> None:
+        """Writes what is packed, until no more than `most` strips are left."""
+        while self._packing and (len(self._packing) > most or self._packing[0].done()):
+            strip = self._packing.popleft().result()
+            self._check = _check_of_both(self._check, (strip.check, strip.length)) if self._check[1] else (strip.check, strip.length)
+            self._chunk(b"IDAT", strip.data)
+
+    def _chunk(self, kind: bytes, data: bytes) -> None:
+        for part in (struct.pack(">I", len(data)), kind, data, struct.pack(">I", zlib.crc32(data, zlib.crc32(kind)))):
+            self._stream.write(part)
+
+
+@contextmanager
+def opened(path: str | Path, size: tuple[int, int], scene_text: str = "", xmp: str = "", white: float | None = None) -> Generator[Writer]:
+    """A `Writer` of the file at `path`, which is there when all rows are, whole or not at all.
+
+    Raises:
+        ValueError: rows are missing.
+        OSError: `path` cannot be written.
+    """
+    with opened_whole(path) as stream:
+        writer = Writer(stream, size, scene_text, xmp, white)
+        try:
+            yield writer
+            writer.close()
+        finally:
+            writer.abandon()
+
+
+def encode(pixels: np.ndarray, scene_text: str = "", xmp: str = "", white: float | None = None) -> bytes:
+    """A PNG of (height, width, 3) `pixels`, top row first; see `Writer`.
 
     Raises:
         ValueError: `pixels` has another shape or type.
     """
-    if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.size == 0:
-        raise ValueError(f"a picture is (height, width, 3) uint8; got {pixels.shape} {pixels.dtype}")
-    height, width, _ = pixels.shape
-    chunks = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"sRGB", _SRGB_PERCEPTUAL)]
-    if scene_text:
-        chunks.append((b"iTXt", KEYWORD.encode("ascii") + b"\0\0\0\0\0" + scene_text.encode("utf-8")))
-    chunks += [(b"IDAT", data) for data in _packed(pixels)]
-    return b"".join([_SIGNATURE, *(part for kind, data in (*chunks, (b"IEND", b"")) for part in _chunk(kind, data))])
+    if pixels.ndim != 3 or pixels.size == 0:
+        raise ValueError(f"a picture is (height, width, 3); got {pixels.shape} {pixels.dtype}")
+    stream = io.BytesIO()
+    writer = Writer(stream, (pixels.shape[1], pixels.shape[0]), scene_text, xmp, white)
+    try:
+        writer.write(pixels)
+        writer.close()
+    finally:
+        writer.abandon()
+    return stream.getvalue()
 
 
-def _chunk(kind: bytes, data: bytes) -> tuple[bytes, ...]:
-    return struct.pack(">I", len(data)), kind, data, struct.pack(">I", zlib.crc32(data, zlib.crc32(kind)))
-
-
-def _packed(pixels: np.ndarray) -> list[bytes]:
-    """A zlib stream of all rows, in parts that were packed on all cores: on one, a picture of 7680 × 4320 took longer to pack than to draw."""
-    strips = range(0, len(pixels), max(_STRIP_BYTES // (3 * pixels.shape[1]), 1))
-    bounds = list(zip(strips, [*strips[1:], len(pixels)]))
-    if len(bounds) == 1:
-        found = [_strip(pixels, *bounds[0])]
-    else:
-        from concurrent.futures import ThreadPoolExecutor  # zlib and NumPy leave the interpreter to others
-
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            found = list(pool.map(lambda rows: _strip(pixels, *rows), bounds))
-    check = functools.reduce(_check_of_both, ((strip.check, strip.length) for strip in found))[0]
-    return [_ZLIB_HEADER, *(strip.data for strip in found), struct.pack(">I", check)]
+def linear16(radiance: np.ndarray, white: float) -> np.ndarray:
+    """Linear `radiance` (…) as uint16, of which 65535 stands for `white` and all above."""
+    return np.rint(np.clip(radiance * (65535.0 / white), 0.0, 65535.0)).astype(np.uint16)
 
 
 class _Strip(NamedTuple):
@@ -82,13 +182,13 @@ class _Strip(NamedTuple):
     length: int
 
 
-def _strip(pixels: np.ndarray, first: int, end: int) -> _Strip:
+def _strip(rows: np.ndarray, above: np.ndarray, step: int, *, last: bool) -> _Strip:
     """Stars and dithering leave little to find but runs: looking for more takes half as long again and gains nothing, and so do the other two differences
     that PNG has; a picture that is mostly flat becomes a third to a half larger."""
-    rows = _differences(pixels, first, end)
+    found = _differences(rows, above, step).tobytes()
     packer = zlib.compressobj(4, zlib.DEFLATED, -15, 9, zlib.Z_RLE)
-    data = packer.compress(rows) + packer.flush(zlib.Z_FINISH if end == len(pixels) else zlib.Z_FULL_FLUSH)
-    return _Strip(data, zlib.adler32(rows), len(rows))
+    data = packer.compress(found) + packer.flush(zlib.Z_FINISH if last else zlib.Z_FULL_FLUSH)
+    return _Strip(data, zlib.adler32(found), len(found))
 
 
 def _check_of_both(one: tuple[int, int], other: tuple[int, int]) -> tuple[int, int]:
@@ -99,21 +199,20 @@ def _check_of_both(one: tuple[int, int], other: tuple[int, int]) -> tuple[int, i
     return high << 16 | low, length_before + length
 
 
-def _differences(pixels: np.ndarray, first: int, end: int) -> bytes:
-    """Rows `first` to `end`, each as differences from its left neighbours or from the row above, whichever are the smaller in sum, behind the kind's number."""
-    rows = np.ascontiguousarray(pixels[first:end]).reshape(end - first, -1)
-    above = np.zeros_like(rows)
-    above[1:] = rows[:-1]
-    if first:
-        above[0] = pixels[first - 1].ravel()
-    upwards = rows - above
+def _differences(rows: np.ndarray, above: np.ndarray, step: int) -> np.ndarray:
+    """Bytes of rows (R, B) below the row `above`, each as differences from what lies `step` bytes to the left or above, whichever are the smaller in sum,
+    behind the kind's number."""
+    upwards = np.empty_like(rows)
+    np.subtract(rows[0], above, out=upwards[0])
+    np.subtract(rows[1:], rows[:-1], out=upwards[1:])
     leftwards = rows.copy()
-    leftwards[:, 3:] -= rows[:, :-3]
+    leftwards[:, step:] -= rows[:, :-step]
     small = _sizes(upwards) < _sizes(leftwards)
     found = np.empty((len(rows), rows.shape[1] + 1), np.uint8)
     found[:, 0] = np.where(small, _UP, _SUB)
-    found[:, 1:] = np.where(small[:, None], upwards, leftwards)
-    return found.tobytes()
+    found[:, 1:] = leftwards
+    found[small, 1:] = upwards[small]
+    return found
 
 
 def _sizes(differences: np.ndarray) -> np.ndarray:
@@ -121,14 +220,14 @@ def _sizes(differences: np.ndarray) -> np.ndarray:
     return np.minimum(differences, 0 - differences).sum(axis=1, dtype=np.uint64)
 
 
-def write(path: str | Path, pixels: np.ndarray, scene_text: str = "") -> None:
-    """Writes `encode(pixels, scene_text)` to `path`, whole or not at all.
+def write(path: str | Path, pixels: np.ndarray, scene_text: str = "", xmp: str = "", white: float | None = None) -> None:
+    """Writes `encode` of the same to `path`, whole or not at all.
 
     Raises:
         ValueError: see `encode`.
         OSError: `path` cannot be written.
     """
-    write_whole(path, encode(pixels, scene_text))
+    write_whole(path, encode(pixels, scene_text, xmp, white))
 
 
 def read(path: str | Path) -> np.ndarray:

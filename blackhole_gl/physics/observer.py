@@ -26,6 +26,9 @@ _LEAST_AHEAD = 1e-3
 FALLING = ("rain", "fall")
 """The observers that may be inside a horizon."""
 
+NOWHERE = (1e6, 1e6)
+"""Where the direction to a hole that is not ahead meets a screen at distance 1: far off every picture."""
+
 _INWARDS = np.array([-1.0, 0.0, 0.0])
 _SEEN = np.array([1.0, 0.0, 0.0, 0.0])
 _BOTH_SEEN = np.stack([_SEEN, _SEEN])
@@ -103,7 +106,7 @@ class Observer:
     def hole_on_screen(self) -> tuple[float, float]:
         """Where the direction to the hole meets a screen at distance 1 ahead, (right, up); far off the picture for a hole that is not ahead."""
         back, down, right = self.hole @ self.look
-        return (-right / back, down / back) if back < -_LEAST_AHEAD else (1e6, 1e6)
+        return (-right / back, down / back) if back < -_LEAST_AHEAD else NOWHERE
 
 
 def cos_sin_deg(degrees: float) -> tuple[float, float]:
@@ -205,7 +208,10 @@ def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
     yaw = np.array([[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]])  # takes ahead to ahead·cos + right·sin
     pitch = np.array([[cp, -sp, 0.0], [sp, cp, 0.0], [0.0, 0.0, 1.0]])  # takes ahead to ahead·cos + up·sin
     roll = np.array([[1.0, 0.0, 0.0], [0.0, cr, sr], [0.0, -sr, cr]])  # takes right to right·cos + down·sin
-    return yaw @ pitch @ roll
+    if camera.projection != "dome":
+        return yaw @ pitch @ roll
+    ct, st = cos_sin_deg(camera.dome_tilt_deg)
+    return yaw @ pitch @ roll @ np.array([[ct, -st, 0.0], [st, ct, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _refuse_inside(camera: Camera, where: SpaceTime) -> None:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..scene import Scene, SceneError
 from ..shapes import Float
-from . import angular_size, lensed_circles
+from . import angular_size, lensed_circles, projection
 from .observer import observe
 from .space_time import ray_model, space_time
 
@@ -48,10 +48,16 @@ class ScreenCurve:
         return m_uas * self.alpha, m_uas * self.beta
 
     def in_pixels(self, scene: Scene, size: tuple[int, int]) -> tuple[Float[Array, " N"], Float[Array, " N"]]:
-        """(x, y) on a picture of `size` by the camera of `scene`, wherever it looks, from the outer corner of its top left pixel."""
+        """(x, y) on a picture of `size` by the camera of `scene`, wherever it looks, from the outer corner of its top left pixel.
+
+        Raises:
+            SceneError: the picture is no perspective.
+        """
+        if not projection.is_perspective(scene.camera):
+            raise SceneError("camera.projection", f"got {scene.camera.projection}; pixels of curves are told for {projection.PERSPECTIVE} alone")
         seen = _directions(scene, self) @ observe(scene).look
         width, height = size
-        half_height = 0.5 * scene.camera.field_m if _is_far(scene) else math.tan(math.radians(0.5 * scene.camera.fov_deg))
+        half_height = projection.half_height(scene.camera)
         ahead = -seen[..., 0]
         with np.errstate(divide="ignore", invalid="ignore"):
             right, up = (np.where(ahead > 0.0, part / ahead, np.nan) for part in (seen[..., 2], -seen[..., 1]))

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
+from ..physics import projection
 from ..physics.space_time import is_field, ray_model, space_time
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
@@ -232,7 +233,7 @@ def _stated_method(scene: Scene) -> Method:
 
 def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PICTURE_HEIGHT) -> float:
     """Errors in pixels of a picture of `scene` `height` pixels high: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
-    return _pixels(scene, scene.camera.fov_deg, scene.camera.distance, height, direction, crossing_r)
+    return _pixels(scene, math.degrees(projection.view_angle(scene.camera)), scene.camera.distance, height, direction, crossing_r)
 
 
 def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, direction: float, crossing_r: float) -> float:
@@ -359,7 +360,7 @@ def field_text(scene: Scene) -> str:
 def _distance(scene: Scene, row: Measured) -> float:
     """How unlike two scenes are: in spin, in how large the hole is in the picture, in how deep the camera sits, in inclination."""
     camera = scene.camera
-    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, camera.fov_deg)
+    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, math.degrees(projection.view_angle(camera)))
     there = _likeness(row.spin, row.distance, row.inclination_deg, row.fov_deg)
     # A measured hole that spins says little of one that does not, and the other way round.
     kind = 1.0 if (scene.hole.spin == 0.0) != (row.spin == 0.0) else 0.0

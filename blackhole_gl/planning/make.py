@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-from ..physics import motion
+from ..physics import motion, projection
 from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue, instances, met
 from ..scene.catalogue import PlugIn
@@ -52,6 +52,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     Raises:
         SceneError: the chosen model, integrator and step control do not fit together.
     """
+    projection.refuse(scene)
     scene, why_other = _meeting_things(met.with_thickness(scene))
     chosen, why_times = _telling_time(scene, sky_alone=not keep_crossings)
     reasons = list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",)) + why_times
@@ -76,6 +77,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     reasons.append(why_refine)
     reasons += _what_lens(scene)
     scene, why_upright = _tilted(scene, model)
+    scene, why_no_glow = _without_glow(scene)
     scene, why_still = _plunging(scene, where)
     reasons += why_still
     inner, outer = where.disk_radii(scene.disk)
@@ -99,7 +101,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) and not scene.disk.tilt_deg else WORLD,
         reasons=tuple(reasons),
-        warnings=(*why_upright, *_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
+        warnings=(*why_upright, *why_no_glow, *_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
     )
 
 
@@ -273,6 +275,8 @@ def _refines(scene: Scene, model: PlugIn, made: choice.Choice, reach_steps: int)
         return False, "moving: a ray for every pixel, as it is not known where things and media can be seen"
     if scene.rays.light_travel:
         return False, "moving: a ray for every pixel, as the times of light are not interpolated"
+    if not projection.is_perspective(scene.camera):
+        return False, f"moving: a ray for every pixel, as in {scene.camera.projection} pictures none is interpolated"
     if not scene.rays.refine:
         return False, "moving: a ray for every pixel, as rays.refine is off"
     found = choice.refinement(scene)
@@ -298,7 +302,7 @@ def _visible_orders(scene: Scene) -> int:
     if is_field(scene):
         return scene.rays.orders
     camera = scene.camera
-    half_height = 0.5 * camera.field_m / 2.0 if math.isinf(camera.distance) else camera.distance * math.tan(math.radians(0.5 * camera.fov_deg))
+    half_height = projection.half_height(camera) / 2.0 if math.isinf(camera.distance) else camera.distance * projection.half_height(camera)
     shadow_px = 0.5 * choice.PICTURE_HEIGHT * 2.6 * scene.hole.gravity_strength / half_height
     seen = sum(8.0 * shadow_px * math.exp(-math.pi * order) >= 1.0 / 255.0 for order in range(1, 3))
     return min(scene.rays.orders, 1 + seen)
@@ -311,7 +315,7 @@ def _march_bound(scene: Scene, model: PlugIn) -> float:
 
 def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
     """`Plan.reach_steps`. Neighbours have to take steps of like length, and things to be bound to a place beside the hole."""
-    if met.is_empty(scene) or control is None or control.traits.adapts or math.isinf(scene.camera.distance):
+    if met.is_empty(scene) or control is None or control.traits.adapts or math.isinf(scene.camera.distance) or not projection.is_perspective(scene.camera):
         return 0
     if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
         return 0
@@ -353,6 +357,13 @@ def _tilted(scene: Scene, model: PlugIn) -> tuple[Scene, list[str]]:
     if not scene.disk.tilt_deg or model.traits.tilted_disk:
         return scene, []
     return scene.with_values({"disk.tilt_deg": 0.0}), [f"the disk is not tilted: {model.key} finds crossings of the equator alone"]
+
+
+def _without_glow(scene: Scene) -> tuple[Scene, list[str]]:
+    """`scene` without bloom where that would show the edges of a cube's faces, and what to say of it."""
+    if scene.camera.projection != projection.CUBE or not scene.post.bloom:
+        return scene, []
+    return scene.with_values({"post.bloom": False}), ["no glow: it would end at the edges of the cube's faces; camera.projection equirectangular has it"]
 
 
 def _plunging(scene: Scene, where: SpaceTime) -> tuple[Scene, list[str]]:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 
-from ..physics import relativity
+from ..physics import projection, relativity
 from ..physics.observer import is_moving
 from ..scene import Scene, catalogue, met
 
@@ -37,6 +37,8 @@ _LEAST_DISTANCE = 2.0 * 255.0
 
 def draws(scene: Scene) -> bool:
     """Whether the lens may stand for `scene`: far from a hole, at rest, with nothing but its sky, and the lens as it comes."""
+    if not projection.is_perspective(scene.camera):
+        return False
     if scene.disk.enabled or not met.is_empty(scene) or scene.camera.distance < _LEAST_DISTANCE or is_moving(scene.camera):
         return False
     return all(scene.get(key) == item.default for key, item in catalogue.plug_ins("ray_model")[MODEL].parameters.items())

@@ -5,18 +5,20 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
 
+from ..physics import projection
 from ..planning import Plan
 from ..planning import plan as make_plan
 from ..scene import Scene
 from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, supersampling, views
 from .coarse_transfer import CoarseMedia
 from .edges import EdgeRays
+from .frame_report import FrameReport
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
 from .metering import Exposure
@@ -24,6 +26,7 @@ from .post import PostPass, keeps_stars
 from .programs import Programs, chosen
 from .shading import ShadePass
 from .star_layer import StarLayer
+from .stills import TILE, Stills
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
@@ -31,41 +34,6 @@ from .uniforms import stars_a_pixel
 
 if TYPE_CHECKING:
     from .pixel_values import PixelValues
-
-TILE = 512
-"""Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
-
-# About a tile, drawn with it and left out: whether a pixel is at an edge depends on those beside it. Even, as the tiles are.
-_MARGIN = 2
-
-
-@dataclass(frozen=True)
-class FrameReport:
-    """What one frame took.
-
-    Attributes:
-        trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
-        traced: whether rays were traced; False when the kept hit map served.
-        sharp: whether every pixel had a ray of its own.
-        sharpened: whether the rays traced only made a slice of a kept map exact.
-        method: the plan's method in a few words.
-        reasons: why the plan chose it.
-        warnings: what it makes worse than the scene asks.
-        stops: what automatic exposure adds; 0 where it is off.
-        settled: whether that is what it will add to the next frame of the same, too.
-    """
-
-    trace_ms: float
-    shade_ms: float
-    post_ms: float
-    traced: bool
-    sharp: bool
-    sharpened: bool
-    method: str
-    reasons: tuple[str, ...]
-    warnings: tuple[str, ...]
-    stops: float
-    settled: bool
 
 
 class Renderer:
@@ -101,6 +69,8 @@ class Renderer:
         self._radiance: Target | None = None
         self._radiance_key: tuple | None = None  # where its light stands
         self._picture: Target | None = None
+        self._stills = Stills(ctx, self._tile, self._post)
+        self._still: np.ndarray | None = None  # the own picture, where it is a still
 
     def render(
         self,
@@ -230,21 +200,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        plan = self._still_plan(scene, samples)
-        light = self.ctx.texture(size, 4, dtype="f2")  # filled here, as a large picture is better not held twice
-        for share, (x, y), part in self._parts(plan, time, size, samples, tile):
-            if part is not None:
-                light.write(np.ascontiguousarray(part, np.float16), viewport=(x, y, part.shape[1], part.shape[0]))
-            yield share
-        self._show(plan, time, light)
-
-    def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
-        """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
-
-        Raises:
-            As `render`.
-        """
-        return self._gathered(self._still_plan(scene, samples), time, size, samples)[::-1, :, :3].copy()
+        return self._gathered([(scene, time)], size, samples, tile)
 
     def render_mean(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int = 1) -> None:
         """Draws the mean light of several (scene, time), exposed as the middle one, as `render_still` draws one.
@@ -252,53 +208,53 @@ class Renderer:
         Raises:
             As `render`.
         """
-        plans = [self._still_plan(scene, samples) for scene, _ in moments]
-        total = np.zeros((size[1], size[0], 4), np.float32)
-        for plan, (_, time) in zip(plans, moments):
-            total += self._gathered(plan, time, size, samples) / len(moments)
-        middle = len(moments) // 2
-        self._show(plans[middle], moments[middle][1], self.ctx.texture(size, 4, total.astype(np.float16), dtype="f2"))
+        for _ in self._gathered(moments, size, samples, TILE):
+            pass
 
-    def _gathered(self, plan: Plan, time: float, size: tuple[int, int], samples: int) -> np.ndarray:
-        """The mean radiance, float32 (height, width, 4), row 0 at the bottom."""
-        light = np.empty((size[1], size[0], 4), np.float32)
-        for _, (x, y), part in self._parts(plan, time, size, samples, TILE):
-            if part is not None:
-                light[y : y + len(part), x : x + part.shape[1]] = part
-        return light
+    def bands(
+        self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int = 1, tile: int = TILE
+    ) -> Iterator[tuple[float, np.ndarray | None]]:
+        """Draws as `render_mean` does, but keeps no picture: yields the share done, after each tile and with rows that are finished, uint8
+        (rows, width, 3) from the top down, or None. What it takes of memory does not grow with the picture's height.
 
-    def _show(self, plan: Plan, time: float, light: moderngl.Texture) -> None:
-        """Draws `light` into the own picture, and gives it back."""
-        self._post.draw(FrameInputs.whole(plan, time, light.size), light, self._own_picture(light.size).frame, (0, 0, *light.size))
-        light.release()
+        Raises:
+            As `render`.
+        """
+        return self._stills.bands(self._still_plans(moments, size, samples), size, samples, tile)
+
+    def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
+        """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
+
+        Raises:
+            As `render`.
+        """
+        return self._stills.light(self._still_plans([(scene, time)], size, samples), size, samples)
+
+    def _gathered(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int, tile: int) -> Iterator[float]:
+        """Has the own picture drawn; yields the share done."""
+        picture, done = np.empty((size[1], size[0], 3), np.uint8), 0
+        for share, rows in self.bands(moments, size, samples, tile):
+            if rows is None:
+                yield share
+            else:
+                picture[done : done + len(rows)] = rows
+                done += len(rows)
+        self._still = picture
+
+    def _still_plans(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int) -> list[tuple[Plan, float]]:
+        projection.refuse_size(moments[0][0].camera, size)
+        plans = [(self._still_plan(scene, samples), time) for scene, time in moments]
+        self._fit_view(plans[-1][0], size)
+        return plans
 
     def _still_plan(self, scene: Scene, samples: int) -> Plan:
         made = make_plan(_with_fewer_edge_rays(scene, -(-scene.rays.edges // samples)))
         return self.exposure.of(diagnostics.prepared(made), at_once=True)
 
-    def _parts(
-        self, plan: Plan, time: float, size: tuple[int, int], samples: int, tile: int
-    ) -> Iterator[tuple[float, tuple[int, int], np.ndarray | None]]:
-        """Draws one ray a pixel of one tile at a time, of no more pixels than `tile`²: the share done, the tile's lower left corner and, when all its rays are
-        there, its mean radiance (height, width, 4) with row 0 at the bottom, float32, or float16 of one ray a pixel."""
-        width, height = size
-        self._fit_view(plan, size)
-        if width * height <= tile * tile:
-            tile = max(width, height)
-        tiles = [(x, y) for y in range(0, height, tile) for x in range(0, width, tile)]
-        number = samples * samples
-        for done, (x, y) in enumerate(tiles):
-            left, bottom = max(x - _MARGIN, 0), max(y - _MARGIN, 0)
-            drawn = min(x + tile + _MARGIN, width) - left, min(y + tile + _MARGIN, height) - bottom
-            total: np.ndarray | None = None
-            for index in range(number):
-                shift = [(k + 0.5) / samples - 0.5 for k in (index % samples, index // samples)]
-                self._trace(inputs := FrameInputs(plan, time, drawn, size, (left + shift[0], bottom + shift[1])))
-                light = _radiance_of(self._shaded_with_edges(inputs))[y - bottom :, x - left :][:tile, :tile]
-                if number > 1:  # half floats are dear to turn into others and back
-                    light = light.astype(np.float32) / number
-                total = light if total is None else total + light
-                yield (done * number + index + 1) / (len(tiles) * number), (x, y), total if index + 1 == number else None
+    def _tile(self, inputs: FrameInputs) -> Target:
+        """The radiance of a part of a still."""
+        self._trace(inputs)
+        return self._shaded_with_edges(inputs)
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
         """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use, wherever the camera looks.
@@ -315,6 +271,8 @@ class Renderer:
         Raises:
             RuntimeError: none has been drawn.
         """
+        if self._still is not None:
+            return self._still
         picture = _drawn(self._picture)
         width, height = picture.size
         pixels = np.empty((height, width, 3), np.uint8)
@@ -384,7 +342,8 @@ class Renderer:
             if target is not None:
                 target.release()
         self.programs.release()
-        self._radiance = self._picture = None
+        self._stills.release()
+        self._radiance = self._picture = self._still = None
 
     def _trace(self, inputs: FrameInputs, *, progressive: bool = False) -> bool:
         self.ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
@@ -436,6 +395,7 @@ class Renderer:
             self._views.fit(plan.scene, self.hit_map)
 
     def _own_picture(self, size: tuple[int, int]) -> Target:
+        self._still = None
         if self._picture is None or self._picture.size != size:
             self._picture = self._fresh(self._picture, size, 4, "f1")
         return self._picture

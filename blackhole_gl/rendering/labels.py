@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..physics import lensed_circles, relativity
+from ..physics import lensed_circles, projection, relativity
 from ..physics.observer import Observer, observe
 from ..physics.space_time import space_time
 from ..planning import Plan
@@ -135,18 +135,15 @@ def places(observer: Observer, scene: Scene, aspect: float, directions: Float[np
     """Where local `directions` (…, 3) of the observer's tetrad lie in the picture; NaN behind the camera."""
     seen = np.asarray(directions, float) @ observer.look
     ahead = np.where(-seen[..., 0] > _LEAST_AHEAD, -seen[..., 0], np.nan)
-    half = half_height(observer, scene)
+    half = projection.half_height(scene.camera)
     return np.stack([0.5 * aspect + 0.5 * seen[..., 2] / (half * ahead), 0.5 + 0.5 * seen[..., 1] / (half * ahead)], axis=-1)
-
-
-def half_height(observer: Observer, scene: Scene) -> float:
-    """Half a picture's height on a screen at distance 1, or in M where the camera is infinitely far."""
-    return 0.5 * scene.camera.field_m if observer.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
 
 
 def without_closed_forms(plan: Plan, what: str) -> str:
     """Why there are no closed forms for `what`; empty where there are."""
-    hole = plan.scene.hole
+    hole, camera = plan.scene.hole, plan.scene.camera
+    if not projection.is_perspective(camera):
+        return f"No {what}: with camera.projection = {camera.projection} none are drawn, with {projection.PERSPECTIVE} they are."
     if plan.space_time.kind == "flat" or not plan.model.traits.exact:
         return f"No {what}: the ray model {plan.model.key} has no closed forms; the exact models of a hole have."
     if (hole.gravity_strength, hole.horizon_size) != (1.0, 1.0) and plan.model.traits.space_time == "schwarzschild":

@@ -13,7 +13,7 @@ from . import hit_texels
 from .hit_map import HitArrays, HitMap
 
 # They are told by angles from the hole, not from the middle of the picture.
-_AT_THE_HOLE = {"camera.yaw_deg": 0.0, "camera.pitch_deg": 0.0, "camera.roll_deg": 0.0}
+_AT_THE_HOLE = {"camera.yaw_deg": 0.0, "camera.pitch_deg": 0.0, "camera.roll_deg": 0.0, "camera.dome_tilt_deg": 0.0}
 
 
 def trace(hit_map: HitMap, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:

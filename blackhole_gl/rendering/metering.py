@@ -169,7 +169,7 @@ def _exposed(plan: Plan, stops: float) -> Plan:
 def _view(plan: Plan) -> Plan:
     """`plan` for what is metered: the hole in the middle, all that shines in the picture or as much as the camera's angle takes in, and nothing else."""
     scene = plan.scene
-    camera = replace(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, azimuth_deg=plan.azimuth_deg)
+    camera = replace(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, projection="perspective", azimuth_deg=plan.azimuth_deg)
     radius = _MARGIN * max(plan.disk_outer if plan.shows_disk else 0.0, plan.reach)
     if math.isinf(camera.distance):
         camera = replace(camera, field_m=min(camera.field_m, 4.0 * radius))

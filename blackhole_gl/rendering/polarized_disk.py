@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..physics import disk_profile, lensed_circles, polarization, scattering_atmosphere
+from ..physics import disk_profile, lensed_circles, polarization, projection, scattering_atmosphere
 from ..physics.observer import Observer, observe
 from ..physics.polarization import MagneticField, PolarizedLight
 from ..planning import Plan
@@ -147,7 +147,7 @@ def directions_at(observer: Observer, scene: Scene, aspect: float, places: Float
 
     Unit vectors, but for a far observer, whose rays are parallel.
     """
-    half = labels.half_height(observer, scene)
+    half = projection.half_height(scene.camera)
     right, down = half * (2.0 * places[:, 0] - aspect), half * (2.0 * places[:, 1] - 1.0)
     found = np.stack([-np.ones_like(right), down, right], axis=-1) @ observer.look.T
     return found if observer.w == 0.0 else found / np.linalg.norm(found, axis=-1, keepdims=True)

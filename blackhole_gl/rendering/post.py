@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 
 from ..scene import Scene
 from .beam import BeamPass
@@ -13,6 +15,8 @@ from .inputs import FrameInputs
 from .levels import Level, draw_into, padded
 from .programs import Programs
 from .target import Target
+
+_SHRINKS = 4  # from the picture to the first level of the bloom; from level to level it is 2
 
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
@@ -26,7 +30,7 @@ TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
 
 def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
     """Sizes of the bloom levels of a picture of `size`: a quarter, then halves, rounded up, until a side is 2 or less."""
-    size = -(-size[0] // 4), -(-size[1] // 4)
+    size = -(-size[0] // _SHRINKS), -(-size[1] // _SHRINKS)
     yield size
     for _ in range(MOST_LEVELS - 1):
         if min(size) <= 2:
@@ -38,6 +42,19 @@ def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
 def keeps_stars(scene: Scene) -> bool:
     """Whether a star drawn over the finished picture of `scene` looks as if it had been in its radiance."""
     return not (scene.post.lens or scene.post.beam) and scene.post.colours == "light"
+
+
+@dataclass(frozen=True)
+class _Window:
+    """What a texture holds of a picture: `size` pixels of it from `corner` on."""
+
+    size: tuple[int, int]
+    corner: tuple[int, int]
+
+    def of(self, picture: tuple[int, int]) -> tuple[float, float, float, float]:
+        """Scale and shift from a place in the `picture`, 0…1, to that in the texture."""
+        (width, height), (x, y) = self.size, self.corner
+        return picture[0] / width, picture[1] / height, -x / width, -y / height
 
 
 class PostPass:
@@ -52,6 +69,7 @@ class PostPass:
         self._size: tuple[int, int] | None = None
         self._down: list[Level] = []
         self._up: list[Level] = []
+        self._quarter: Level | None = None  # what glows of a part of a picture
         self._tone: Target | None = None
         self._tone_key: tuple | None = None
         self._beam, self._brightest = BeamPass(ctx, programs), BrightestPass(ctx, programs)
@@ -84,18 +102,77 @@ class PostPass:
             self.samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
         if viewport[2:] == radiance.size and not post.lens:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        tone_map = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
-        tone_map.sample(self.samplers)
-        tone_map.set(target_origin=viewport[:2], target_texel=_texel(viewport[2:]))
+        self._tone_map(inputs, target, viewport, viewport[:2], viewport[2:], _Window(radiance.size, (0, 0)))
+
+    def bright(self, inputs: FrameInputs, radiance: moderngl.Texture) -> np.ndarray:
+        """What glows of `radiance` (RGBA16F), at a quarter of its size, rounded up: float16 (height, width, 4), row 0 at the bottom."""
+        radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        radiance.repeat_x = radiance.repeat_y = False
+        size = next(bloom_sizes(radiance.size))
+        if self._quarter is None or self._quarter.size != size:
+            if self._quarter is not None:
+                self._quarter.target.release()
+            self._quarter = Level.of(self._ctx, size, size)
+        self._draw_quarter(inputs, radiance, self._quarter)
+        return np.frombuffer(self._quarter.texture.read(), np.float16).reshape(size[1], size[0], 4)
+
+    def spread(self, inputs: FrameInputs, bright: np.ndarray) -> moderngl.Texture:
+        """The glow, at the size of `bright` (as the method of that name gives it, of a part of the picture or the whole); it is the next call's, too."""
+        self._make_levels((bright.shape[1], bright.shape[0]))
+        self._down[0].texture.write(np.ascontiguousarray(bright))
+        return self._spread(inputs)
+
+    def develop(
+        self,
+        inputs: FrameInputs,
+        radiance: moderngl.Texture,
+        corner: tuple[int, int],
+        glow: tuple[moderngl.Texture, tuple[int, int]] | None,
+        target: moderngl.Framebuffer,
+    ) -> None:
+        """Makes `radiance` (RGBA16F), a part of the picture of `inputs` that begins at the pixel `corner`, the same part of it, at (0, 0) in `target`.
+
+        Args:
+            glow: as `spread` gives it, and the pixel of the picture, which may lie beyond its edge, where that begins; None without.
+        """
+        radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
+        window = None
+        if glow is not None:
+            self.samplers["glow"], start = glow
+            window = _Window((_SHRINKS * glow[0].width, _SHRINKS * glow[0].height), start)
+        self._tone_map(inputs, target, (0, 0, *radiance.size), (-corner[0], -corner[1]), inputs.picture, _Window(radiance.size, corner), window)
+
+    def _tone_map(
+        self,
+        inputs: FrameInputs,
+        target: moderngl.Framebuffer,
+        viewport: tuple[int, int, int, int],
+        origin: tuple[int, int],
+        shown: tuple[int, int],
+        light: _Window,
+        glow: _Window | None = None,
+    ) -> None:
+        """Fills `viewport` of `target` from the samplers; the picture is `shown` so large and begins at `origin` there."""
+        made = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
+        made.sample(self.samplers)
+        made.set(target_origin=origin, target_texel=_texel(shown), light_window=light.of(inputs.picture))
+        if "glow" in self.samplers:
+            texture = self.samplers["glow"]
+            whole = _Window((_SHRINKS * texture.width, _SHRINKS * texture.height), (0, 0))
+            made.set(glow_window=(glow or whole).of(inputs.picture))
         target.use()
         outer = target.viewport
         target.viewport = viewport
-        tone_map.draw()
+        made.draw()
         target.viewport = outer
 
     def release(self) -> None:
         """Gives the GL objects back."""
         self._release_levels()
+        if self._quarter is not None:
+            self._quarter.target.release()
+        self._quarter = None
         self._beam.release()
         self._brightest.release()
         if self._tone is not None:
@@ -127,32 +204,43 @@ class PostPass:
         return self._bloom(inputs, radiance)
 
     def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
-        post = inputs.plan.scene.post
-        self._make_levels(radiance.size)
-        source, size, threshold, centre = radiance, radiance.size, post.bloom_threshold, 0.0
+        self._make_levels(next(bloom_sizes(radiance.size)))
+        self._draw_quarter(inputs, radiance, self._down[0])
+        return self._spread(inputs)
+
+    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level) -> None:
         down = self._programs.get("post/bloom_down.frag", inputs)
-        for level in self._down:
+        down.sample({"source": radiance})
+        down.set(**_places("source", radiance, radiance.size, _SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
+        draw_into(level, down)
+
+    def _spread(self, inputs: FrameInputs) -> moderngl.Texture:
+        """The glow of what the first level holds."""
+        post, down = inputs.plan.scene.post, self._programs.get("post/bloom_down.frag", inputs)
+        source, size = self._down[0].texture, self._down[0].size
+        for level in self._down[1:]:
             down.sample({"source": source})
-            down.set(**_places("source", source, size, level.size), threshold=threshold, centre_weight=centre)
+            down.set(**_places("source", source, size, 2), threshold=0.0, centre_weight=4.0)
             draw_into(level, down)
-            source, size, threshold, centre = level.texture, level.size, 0.0, 4.0
+            source, size = level.texture, level.size
         up = self._programs.get("post/bloom_up.frag", inputs)
         share = post.bloom_spread / (0.4 + post.bloom_spread)
         for own, level in zip(reversed(self._down[:-1]), self._up):
             up.sample({"wider": source, "level": own.texture})
-            up.set(**_places("wider", source, size, level.size), spread=share)
+            up.set(**_places("wider", source, size, 0.5), spread=share)
             draw_into(level, up)
             source, size = level.texture, level.size
         return source
 
-    def _make_levels(self, size: tuple[int, int]) -> None:
-        if size == self._size:
+    def _make_levels(self, first: tuple[int, int]) -> None:
+        """Those of a picture whose first is so large."""
+        if first == self._size:
             return
         self._release_levels()
-        first, *others = bloom_sizes(size)
+        _, *others = bloom_sizes((_SHRINKS * first[0], _SHRINKS * first[1]))
         self._down = [Level.of(self._ctx, first, first), *(Level.of(self._ctx, other, padded(other)) for other in others)]
         self._up = [Level.of(self._ctx, level.size, level.texture.size) for level in reversed(self._down[:-1])]
-        self._size = size
+        self._size = first
 
 
 def _lasts(before: FrameInputs, now: FrameInputs) -> bool:
@@ -160,11 +248,11 @@ def _lasts(before: FrameInputs, now: FrameInputs) -> bool:
     return abs(now.time - before.time) <= GLOW_LASTS and (before.size, before.plan) == (now.size, now.plan)
 
 
-def _places(name: str, source: moderngl.Texture, size: tuple[int, int], target: tuple[int, int]) -> dict[str, tuple[float, float]]:
-    """Uniforms by which a pixel of a target of size `target` finds its place in the lower left `size` pixels of `source`."""
+def _places(name: str, source: moderngl.Texture, size: tuple[int, int], ratio: float) -> dict[str, tuple[float, float]]:
+    """Uniforms by which a pixel of a target, `ratio` of those of `source` wide, finds its place in the lower left `size` pixels of that."""
     u, v = _texel(source.size)
     return {
-        f"{name}_scale": (u * size[0] / target[0], v * size[1] / target[1]),
+        f"{name}_scale": (u * ratio, v * ratio),
         f"{name}_last": (u * (size[0] - 0.5), v * (size[1] - 0.5)),
         f"{name}_texel": (u, v),
     }

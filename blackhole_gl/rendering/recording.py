@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import Fate
-from ..physics import observer, tilted_disk
+from ..physics import observer, projection, tilted_disk
 from ..planning import Plan
 from ..planning import plan as make_plan
 from ..scene import Scene
@@ -77,12 +77,7 @@ class RayPath:
 
 def pixel_direction(scene: Scene, size: tuple[int, int], pixel: tuple[float, float]) -> Float[Array, " 3"]:
     """Where the point `pixel` (x, y) of a picture of `size` looks, counted in pixels from its bottom left, in the frame of the view (common/observer.glsl)."""
-    camera = scene.camera
-    far = np.isinf(camera.distance)
-    half_height = 0.5 * camera.field_m if far else np.tan(np.radians(0.5 * camera.fov_deg))
-    right, up = (2.0 * np.asarray(pixel, float) - size) * half_height / size[1]
-    local = np.array([-1.0, -up, right])
-    return local if far else local / np.linalg.norm(local)
+    return projection.directions(scene.camera, size, np.asarray(pixel, float))
 
 
 class Recorder:

@@ -9,6 +9,7 @@ import math
 
 import numpy as np
 
+from ..physics import projection
 from ..physics.angular_size import is_told, picture_height_uas
 from ..scene import Scene
 from .labels import WHITE, Curve, Labels, Name
@@ -24,7 +25,7 @@ _NONE = Labels()
 
 def of(scene: Scene, aspect: float) -> Labels:
     """The bar of a picture of `scene` whose width is `aspect` heights, with its length told; nothing where the scene stands for no real object."""
-    if not is_told(scene):
+    if not is_told(scene) or not projection.is_perspective(scene.camera):
         return _NONE
     height = picture_height_uas(scene.camera, scene.source)
     angle = round_below(_LONGEST * aspect * height)

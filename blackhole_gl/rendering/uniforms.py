@@ -11,7 +11,7 @@ from functools import cache
 
 from ..glsl.blocks import Block
 from ..glsl.declared import defines
-from ..physics import accretion, observer, plunging, shear, tilted_disk
+from ..physics import accretion, observer, plunging, projection, shear, tilted_disk
 from ..planning import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields, met
 from ..scene.tables import Number
@@ -34,7 +34,7 @@ _RAY_MEMBERS = (
     ("disk_axis_y", "vec4"),
     ("disk_axis_z", "vec4"),
     ("hole_w_factors", "vec2"),  # r₊, r₋ in M: Δ w² = (1 − w r₊)(1 − w r₋)
-    ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M)
+    ("picture_scale", "float"),  # half height of the picture per pixel, at distance 1 (or in M); of pictures all round half a pixel's angle
     ("camera_w", "float"),  # M/r, 0 at infinity
     ("hole_w_stop", "float"),  # M/r inside which an inward ray is captured
     ("crossing_r_min", "float"),  # r_s
@@ -114,9 +114,8 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
     """
     scene, where = plan.scene, plan.space_time
     seen = observer.observe(scene.with_values({"camera.azimuth_deg": plan.azimuth_deg}))
-    half_height = 0.5 * scene.camera.field_m if seen.w == 0.0 else math.tan(math.radians(0.5 * scene.camera.fov_deg))
-    picture_scale = half_height / size[1]
-    right, up = seen.hole_on_screen
+    picture_scale = projection.half_height(scene.camera) / projection.filled(scene.camera, size)[1]
+    right, up = seen.hole_on_screen if projection.is_perspective(scene.camera) else observer.NOWHERE
     back, down, aside = seen.axes
     x, y, z = tilted_disk.axes(scene.disk)  # where it is tilted, the plan's frame is the world
     return dict(

@@ -83,6 +83,20 @@ class Camera:
     roll_deg: float = number(0.0, -180.0, 180.0, "°", "Turns the camera clockwise about its line of sight.")
     fov_deg: float = number(45.0, 1.0, 150.0, "°", "Vertical angle of view.")
     field_m: float = number(30.0, 0.1, 1e4, "M", "Height of the picture when the camera is infinitely far.")
+    projection: str = choice(
+        "perspective", ("perspective", "equirectangular", "stereo", "cube", "dome"),
+        "How directions lie in the picture: in perspective; all round, with the longitude across and the latitude up (360°, twice as wide as high), or two "
+        "such over one another, for the left eye and the right (as wide as high); on the six faces of a cube side by side (right, left, up, down, front, "
+        "back); or the half of the world over a planetarium's dome, as a disc (fisheye).",
+    )
+    eye_separation: float = number(
+        0.2, 0.0, 10.0, "r_s",
+        "Between the eyes of stereo, each of which stands aside of the camera in every direction that it looks: in Boyer–Lindquist coordinates, r_s = 1, which "
+        "near a hole is not what a ruler measures there.",
+    )
+    dome_tilt_deg: float = number(
+        0.0, 0.0, 90.0, "°", "How far the dome's zenith, the middle of its picture, is above what the camera looks at: at 90 that stands on the rim, in front.",
+    )
     observer: str = choice(
         "static", ("static", "zamo", "circular", "rain", "fall"),
         "How the camera moves: at rest; with zero angular momentum (ZAMO), dragged round by a spinning hole; on a circular orbit, with the disk's matter; or "

@@ -30,12 +30,68 @@ vec2 picture_place(vec2 fragment) {
 }
 #endif
 
-// Where the pixel at `place` looks, in the observer's frame (r, θ, φ); (−1, −β, α) in M for a camera at infinity.
+#if CAMERA_PROJECTION_PERSPECTIVE
+// Where the pixel at `place` looks, in the frame of the view (back, down, right); (−1, −β, α) in M for a camera at infinity.
 vec3 pixel_direction(vec2 place) {
     vec2 screen = (2.0 * (place + picture_offset) - picture_size) * picture_scale;
     vec3 local = vec3(-1.0, -screen.y, screen.x);
     return camera_w > 0.0 ? normalize(local) : local;
 }
+#else
+// Pictures all round (blackhole_gl/physics/projection.py). picture_scale is half a pixel's angle; a cube's is 1 over the pixels of a face's side.
+
+// (cos, sin) of so many right angles: no driver's own, as these decide what a ray hits. Within 1e-7.
+vec2 cos_sin_quarters(float quarters) {
+    float whole = floor(quarters + 0.5), x = (quarters - whole) * 1.5707963, x2 = x * x;
+    float sine = x * (1.0 + x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 / 362880.0))));
+    float cosine = 1.0 + x2 * (-0.5 + x2 * (1.0 / 24.0 + x2 * (-1.0 / 720.0 + x2 * (1.0 / 40320.0 - x2 / 3628800.0))));
+    float turn = whole - 4.0 * floor(0.25 * whole);
+    vec2 found = turn == 0.0 || turn == 2.0 ? vec2(cosine, sine) : vec2(-sine, cosine);
+    return turn < 2.0 ? found : -found;
+}
+
+// `place` from the middle of the picture, in right angles, or in sides of a cube's face.
+vec2 from_middle(vec2 place) {
+    vec2 pixels = (place + picture_offset) - 0.5 * picture_size;
+#if CAMERA_PROJECTION_CUBE
+    return pixels * picture_scale;
+#else
+    return pixels * (2.0 / 1.5707963 * picture_scale);
+#endif
+}
+
+// Whether the projection shows `place`. What goes round is shown a few pixels on, for the borders of tiles of a picture.
+bool in_projection(vec2 place) {
+    vec2 at = abs(from_middle(place));
+#if CAMERA_PROJECTION_CUBE
+    return at.x < 3.0 && at.y < 0.5;
+#elif CAMERA_PROJECTION_DOME
+    return dot(at, at) < 1.0;
+#else
+    float more = 8.0 / 1.5707963 * picture_scale;
+    return at.x < 2.0 + more && at.y < 1.0 + more;
+#endif
+}
+
+vec3 pixel_direction(vec2 place) {
+    vec2 at = from_middle(place);
+#if CAMERA_PROJECTION_CUBE
+    float across = at.x + 3.0, face = clamp(floor(across), 0.0, 5.0);
+    float right = 2.0 * (across - face) - 1.0, up = 2.0 * at.y;
+    vec3 local = face == 0.0 ? vec3(right, -up, 1.0) : face == 1.0 ? vec3(-right, -up, -1.0) : face == 2.0 ? vec3(up, -1.0, right) : face == 3.0 ? vec3(-up, 1.0, right)
+        : face == 4.0 ? vec3(-1.0, -up, right) : vec3(1.0, -up, -right);
+    return normalize(local);
+#elif CAMERA_PROJECTION_DOME
+    float away = length(at);
+    vec2 angle = cos_sin_quarters(away);
+    vec2 aside = away > 0.0 ? at * (angle.y / away) : vec2(0.0);
+    return vec3(-angle.x, -aside.y, aside.x);
+#else
+    vec2 longitude = cos_sin_quarters(at.x), latitude = cos_sin_quarters(at.y);
+    return vec3(-latitude.x * longitude.x, -latitude.y, latitude.x * longitude.y);
+#endif
+}
+#endif
 
 // E_observer/E_infinity of light that arrives from the local direction `local`, as it counts for colours (x) and for brightness (y): one number, unless the
 // observer's motion is not to show in both, or not to shift directions. Next to none where the light has E ≤ 0: its λ and η, and with them all shifts, have no meaning.

@@ -7,6 +7,9 @@
 #include "common/developed.glsl"
 #include "common/lensed_picture.glsl"
 #include "common/heat.glsl"
+#if CAMERA_PROJECTION_DOME
+#include "common/observer.glsl"
+#endif
 
 uniform sampler2D radiance;    // filtered linearly where the picture has another size; else not: docs/llvmpipe.md, texels
 #if POST_COLOURS_AFMHOT
@@ -16,6 +19,8 @@ uniform sampler2D glow;
 #endif
 uniform vec2 target_origin; // lower left pixel of the picture in the target
 uniform vec2 target_texel;  // 1 / size of the picture in the target
+uniform vec4 light_window;  // from a place in the picture, 0…1, to that in `radiance`, which may hold a part of it: scale, shift
+uniform vec4 glow_window;   // the same for `glow`
 
 out vec4 colour;
 
@@ -34,9 +39,9 @@ void main() {
     vec3 hole = from_hole(place);
     place = lensed_place(place, hole);
 #endif
-    vec3 light = textureLod(radiance, place, 0.0).rgb;
+    vec3 light = textureLod(radiance, place * light_window.xy + light_window.zw, 0.0).rgb;
 #if POST_BLOOM && !POST_COLOURS_AFMHOT
-    light += post_bloom_intensity * textureLod(glow, place, 0.0).rgb;
+    light += post_bloom_intensity * textureLod(glow, place * glow_window.xy + glow_window.zw, 0.0).rgb;
 #endif
 #if POST_LENS
     light *= lens_cover(hole);
@@ -52,6 +57,9 @@ void main() {
 #if POST_DITHER
     // One grey level at most, less near black and white, so that both stay clean.
     code += dither_noise(pixel) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));
+#endif
+#if CAMERA_PROJECTION_DOME
+    if (!in_projection(pixel)) code = vec3(0.0); // no glow beyond the rim
 #endif
     colour = vec4(code, 1.0);
 }

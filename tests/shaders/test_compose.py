@@ -50,7 +50,7 @@ def test_a_mistake_names_the_authors_file_and_line(ctx: moderngl.Context, copy: 
 
 
 def test_a_mistake_after_switches_and_blocks_keeps_its_line(ctx: moderngl.Context, copy: Path) -> None:
-    line = edit(copy / "trace.frag", "store_hits(", "store_hit(")
+    line = edit(copy / "trace.frag", "store_hits(trace_ray", "store_hit(trace_ray")
     with pytest.raises(ShaderError) as caught:
         Programs(ctx, copy).get("trace.frag", INPUTS)
     assert (caught.value.file, caught.value.line) == ("trace.frag", line)

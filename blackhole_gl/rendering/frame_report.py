@@ -1,0 +1,34 @@
+"""What is told of a frame that was drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class FrameReport:
+    """What one frame took.
+
+    Attributes:
+        trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
+        traced: whether rays were traced; False when the kept hit map served.
+        sharp: whether every pixel had a ray of its own.
+        sharpened: whether the rays traced only made a slice of a kept map exact.
+        method: the plan's method in a few words.
+        reasons: why the plan chose it.
+        warnings: what it makes worse than the scene asks.
+        stops: what automatic exposure adds; 0 where it is off.
+        settled: whether that is what it will add to the next frame of the same, too.
+    """
+
+    trace_ms: float
+    shade_ms: float
+    post_ms: float
+    traced: bool
+    sharp: bool
+    sharpened: bool
+    method: str
+    reasons: tuple[str, ...]
+    warnings: tuple[str, ...]
+    stops: float
+    settled: bool
