@@ -109,7 +109,7 @@ def test_a_file_that_changes_while_it_is_composed_is_not_kept(ctx: moderngl.Cont
 
 def test_a_mistake_of_the_drivers_in_a_kept_text_names_its_place(ctx: moderngl.Context, copy: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache, "user_cache_dir", lambda: tmp_path / "cache")
-    line = edit(copy / "trace.frag", "store_hits(", "store_hit(")
+    line = edit(copy / "trace.frag", "store_hits(trace_ray", "store_hit(trace_ray")
     for _ in range(2):
         with pytest.raises(ShaderError) as caught:
             Programs(ctx, copy).get("trace.frag", INPUTS)
