@@ -1,17 +1,22 @@
 #version 330 core
 // What rays of a coarse grid have gone through → depth: which pixels lie between rays with one and the same history (fate, surfaces of media, crossings of the disk's
-// plane), and the same fate themselves. Between those what media add may be interpolated; the others are marched by themselves, so that no edge has a halo.
+// plane), and the same fate themselves. Between those what media add may be interpolated, and is nothing where none of the four met any; the others are marched by themselves,
+// so that no edge has a halo.
 #defines
 #blocks
 #include "common/constants.glsl"
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 
-uniform sampler2D passed0;  // of the grid; alpha: the history
-uniform float spacing;      // pixels from ray to ray
+uniform sampler2D gathered0, dimmed0;  // of the grid; alpha: the pieces of the ray that lie in media, and its history
+uniform float spacing;                 // pixels from ray to ray
 
 float history(ivec2 ray) {
-    return texelFetch(passed0, min(ray, textureSize(passed0, 0) - 1), 0).a;
+    return texelFetch(dimmed0, min(ray, textureSize(dimmed0, 0) - 1), 0).a;
+}
+
+float pieces(ivec2 ray) {
+    return texelFetch(gathered0, min(ray, textureSize(gathered0, 0) - 1), 0).a;
 }
 
 void main() {
@@ -19,5 +24,6 @@ void main() {
     float first = history(ray);
     bool alike = history(ray + ivec2(1, 0)) == first && history(ray + ivec2(0, 1)) == first && history(ray + 1) == first;
     alike = alike && int(first) % 8 == fetch_escape(pixel).fate;
-    gl_FragDepth = alike ? 0.75 : 0.25;
+    bool meets = pieces(ray) + pieces(ray + ivec2(1, 0)) + pieces(ray + ivec2(0, 1)) + pieces(ray + 1) > 0.0;
+    gl_FragDepth = !alike ? 0.25 : meets ? 0.75 : 0.5;
 }

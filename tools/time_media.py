@@ -3,7 +3,7 @@
     LP_NUM_THREADS=1 python tools/time_media.py [--size 1280x720] [--rounds 3]
 
 Scenes take turns in one process, and each round's frames are divided by those of the flat scene in the same round. A still frame is the mean of an even
-number, as grid and edges take turns in it.
+number, as grid and edges take turns in it, and comes after those in which samples along its rays are told.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
 FRAMES = 2  # of a scene in a round
+FIRST = 24  # before the rounds
 TURN_DEG = 0.5  # between the frames of a moving camera, in both angles
 FOG = {"media.fog.kind": "ball", "media.fog.radius": 4.0, "media.fog.depth": 0.4}
 
@@ -31,11 +32,13 @@ def main() -> None:
     kerr = presets.load(["kerr"])
     scenes = {"flat": kerr.with_values({"rays.lensing": False}), "kerr": kerr, "kerr with fog": presets.load(["kerr"], FOG)}
     scenes |= {name: presets.load([name]) for name in ("polish_doughnut", "cloudy_slab", "jet")}
+    scenes["cloudy_slab with lanes and grain"] = presets.load(["cloudy_slab"], {"media.slab.lanes": 1.0, "media.slab.grain": 1.0})
     took: dict[tuple[str, str], list[float]] = defaultdict(list)
     renderers = {(name, motion): Renderer(create_headless()) for name in scenes for motion in ("still", "moving")}
     for number in range(-1, given.rounds):
         for (name, motion), renderer in renderers.items():
-            seconds = timed(renderer, scenes[name], size, FRAMES * number + 10, moving=motion == "moving")
+            frames = range(FIRST) if number < 0 else range(FIRST + FRAMES * number, FIRST + FRAMES * (number + 1))
+            seconds = timed(renderer, scenes[name], size, frames, moving=motion == "moving")
             if number >= 0:
                 took[name, motion].append(1e3 * seconds / FRAMES)
     print("| scene | motion | processor ms | × flat |\n| --- | --- | ---: | ---: |")
@@ -44,11 +47,11 @@ def main() -> None:
         print(f"| {name} | {motion} | {min(own):.0f} | {ratio:.2f} |")
 
 
-def timed(renderer: Renderer, scene: Scene, size: tuple[int, int], first: int, *, moving: bool) -> float:
-    """Processor seconds of the frames from number `first` on."""
+def timed(renderer: Renderer, scene: Scene, size: tuple[int, int], frames: range, *, moving: bool) -> float:
+    """Processor seconds of the frames with those numbers."""
     renderer.ctx.finish()
     start = clock.process_time()
-    for number in range(first, first + FRAMES):
+    for number in frames:
         turn = TURN_DEG * number if moving else 0.0
         seen = scene.with_values({"camera.azimuth_deg": turn, "camera.inclination_deg": scene.camera.inclination_deg + (turn % 4.0 if moving else 0.0)})
         renderer.render(seen, 0.1 * number, size, progressive=moving, glow_may_last=not moving)

@@ -6,13 +6,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import moderngl
+import numpy as np
 
 from ..planning import Plan
 from ..scene import FrozenMap, Scene
 from .classes import EVERYWHERE, Where, drawn
 from .hit_map import HitMap
 from .inputs import FrameInputs
+from .kept_samples import MOST_KEPT, MOST_SAMPLES, KeptSamples, can_keep
 from .programs import Draw, Programs, Samplers
+from .ray_lists import RayList, in_blocks
 from .target import Target
 from .transfer import changes, stretches
 
@@ -20,13 +23,13 @@ MOVING, TURNING = 3, 2
 """Pixels from ray to ray under a moving camera, and before one at rest while a pattern moves."""
 
 LONGER = 1.5
-"""Steps in media that are drawn coarse, over those that the scene asks for."""
+"""Steps in media that are marched coarse in every frame, over those that the scene asks for."""
 
 LAGS = 0.25
 """Scene time in r_s/c by which a part of a moving pattern may stay behind the rest: a brush of light moves by less than a pixel in it."""
 
 # By shaders/transfer_marks.frag.
-_OWN, _BETWEEN = Where(">", 0.5), Where("<", 0.5)
+_OWN, _BETWEEN = Where(">", 0.375), Where("<", 0.625)
 
 
 @dataclass(frozen=True)
@@ -62,8 +65,10 @@ def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> CoarseMedia | None
     if not (moving or passes and changes(plan)):
         return None
     rays = plan.scene.rays
-    coarser = inputs.with_plan(replace(plan, scene=plan.scene.with_values({"rays.medium_step": min(LONGER * rays.medium_step, max(rays.medium_step, 1.0))})))
-    return CoarseMedia(coarser, MOVING, float(MOVING), False) if moving else CoarseMedia(coarser, TURNING, 1.0, True)  # as sharp as it will be at rest
+    longer = 1.0 if can_keep(plan) and not moving else LONGER
+    coarser = inputs.with_plan(replace(plan, scene=plan.scene.with_values({"rays.medium_step": min(longer * rays.medium_step, max(rays.medium_step, 1.0))})))
+    step = MOVING if moving else TURNING
+    return CoarseMedia(coarser, step, float(step), passes=not moving)
 
 
 def rest_of(inputs: FrameInputs, plan_of: Callable[[Scene], Plan]) -> FrameInputs:
@@ -88,28 +93,59 @@ class CoarseTransfer:
     def draw(self, media: CoarseMedia, hit_map: HitMap, samplers: Samplers, *, apart: bool) -> None:
         """Fills the textures for all pixels of `hit_map`, which where they are `apart` knows of no media, unless they hold just that; `samplers` are what rays
         look things up in."""
-        inputs, step = media.inputs, media.step
+        inputs = media.inputs
         march = self._programs.get("transfer.frag", inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": int(apart)})
-        rays = replace(inputs, time=0.0), hit_map.generation, march.serial, step
-        made = self._targets(inputs.size, stretches(inputs.plan), step)
-        grid, own = self._due(rays, inputs.time if changes(inputs.plan) else 0.0, media.passes)
-        march.sample(samplers)
-        march.set(meeting_reach=inputs.plan.reach)
-        if "block_side" in march.program:
-            march.set(block_side=float(hit_map.block_side))
-        if step == 1:
-            if own:
-                self._march(march, made.whole, EVERYWHERE, 1, media.footprint)
-            return
+        asked = _Asked(media, hit_map, samplers, march, (replace(inputs, time=0.0), hit_map.generation, march.serial, media.step))
+        made = self._targets(inputs.size, stretches(inputs.plan), media.step)
+        begins = self._last is None or self._last.rays != asked.rays
+        if begins:
+            made.forget()
+        grid, own = self._due(asked.rays, inputs.time if changes(inputs.plan) else 0.0, media.passes)
         if grid:
-            self._march(march, made.grid, EVERYWHERE, step, media.footprint)
-            if rays != self._marked:
-                self._mark(media, hit_map, made)
-                self._marked = rays
-            self._join(media, made)
-        if own:
-            march.sample(samplers)
-            self._march(march, made.whole, _OWN, 1, media.footprint)
+            self._draw_grid(asked, made)
+        if own and made.own.count:
+            self._draw_own(asked, made)
+        if not begins and media.passes and can_keep(inputs.plan) and not made.is_told:
+            self._tell(asked, made)
+
+    def _draw_grid(self, asked: _Asked, made: _Made) -> None:
+        """The grid, and what lies between its rays; the whole picture where each of its pixels has one."""
+        if made.samples.is_whole:
+            self._sum(asked, made, made.samples, made.grid, EVERYWHERE)
+        else:
+            self._march(asked, made.grid.frame, (float(asked.media.step), asked.media.footprint), made.own)
+        if asked.media.step > 1:
+            if asked.rays != self._marked:
+                self._mark(asked, made)
+                self._marked = asked.rays
+            self._join(asked.media, made)
+
+    def _draw_own(self, asked: _Asked, made: _Made) -> None:
+        """The rays beside the grid's."""
+        if made.own_samples.is_whole:
+            self._sum(asked, made, made.own_samples, made.whole, _OWN)
+            return
+        listed = made.listed(self._ctx, made.own)
+        self._march(asked, listed.frame, (-1.0, asked.media.footprint), made.own, made.own.rows)
+        self._spread(asked.media, made.own, listed, made.whole, _OWN)
+
+    def _sum(self, asked: _Asked, made: _Made, samples: KeptSamples, target: Target, where: Where) -> None:
+        """What `samples` show at the frame's time, into `target`."""
+        self.marches += 1
+        listed = made.listed(self._ctx, samples.list)
+        draw = self._programs.get("transfer_samples.frag", asked.media.inputs, {"MOST_SAMPLES": MOST_SAMPLES})
+        draw.sample({**asked.samplers, **samples.samplers})
+        samples.sum(draw, listed.frame, asked.media.footprint)
+        self._spread(asked.media, samples.list, listed, target, where)
+
+    def _tell(self, asked: _Asked, made: _Made) -> None:
+        """Some more of the samples on rays that have stayed."""
+        march = self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1})
+        samples, pixels, step = made.untold()
+        if not samples.begun:
+            samples.begin(pixels())
+        _prepare(march, asked.hit_map)
+        samples.march_on(march, asked.samplers, (-float(step), asked.media.footprint))
 
     def _due(self, rays: tuple, time: float, passes: bool) -> tuple[bool, bool]:
         """Whether the grid, and the rays beside it, are to be marched for `rays` at scene time `time`: one of the two, where the other has just been."""
@@ -122,14 +158,17 @@ class CoarseTransfer:
         self._last = _Last(rays, time if grid else last.grid, time if own else last.own, grid_is_older=own if grid != own else last.grid_is_older)
         return grid, own
 
-    def _march(self, march: Draw, target: Target, where: Where, spacing: int, footprint: float) -> None:
+    def _march(self, asked: _Asked, frame: moderngl.Framebuffer, spacing: tuple[float, float], rays: RayList, rows: int | None = None) -> None:
+        """Into all of `frame`, or that many rows of it; `spacing` as in shaders/transfer.frag."""
         self.marches += 1
-        self._ctx.disable(moderngl.BLEND)
-        target.frame.use()
-        target.frame.depth_mask = False
-        march.set(ray_spacing=(float(spacing), footprint))
-        with drawn(self._ctx, march, where):
-            march.draw()
+        asked.march.sample({**asked.samplers, "ray_pixels": rays.pixels})
+        _prepare(asked.march, asked.hit_map)
+        self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
+        frame.use()
+        asked.march.set(ray_spacing=spacing)
+        self._ctx.scissor = None if rows is None else (0, 0, frame.width, rows)
+        asked.march.draw()
+        self._ctx.scissor = None
 
     @property
     def samplers(self) -> Mapping[str, moderngl.Texture]:
@@ -142,28 +181,41 @@ class CoarseTransfer:
             self._made.release()
         self._made = self._last = self._marked = None
 
-    def _mark(self, media: CoarseMedia, hit_map: HitMap, made: _Made) -> None:
-        marks = self._programs.get("transfer_marks.frag", media.inputs, hit_map.switches())
-        marks.sample({**hit_map.samplers(), "passed0": made.grid.textures[1]})
-        marks.set(spacing=float(media.step))
+    def _mark(self, asked: _Asked, made: _Made) -> None:
+        marks = self._programs.get("transfer_marks.frag", asked.media.inputs, asked.hit_map.switches())
+        marks.sample({**asked.hit_map.samplers(), **_named(made.grid)})
+        marks.set(spacing=float(asked.media.step))
         made.marks.use()
         with drawn(self._ctx, marks, EVERYWHERE):
             marks.draw()
+        depth = np.frombuffer(made.depth.read(), np.float32).reshape(made.depth.height, made.depth.width)
+        made.own.hold(in_blocks(depth < _OWN.depth))
+        made.whole.frame.depth_mask = False
+        made.whole.frame.clear()
 
     def _join(self, media: CoarseMedia, made: _Made) -> None:
         join = self._programs.get("transfer_join.frag", media.inputs)
         join.sample(_named(made.grid))
         factors = [1.0 / (media.step * side) for side in made.grid.size]
         join.set(pixels_to_grid=(*factors, *(0.5 / side - 0.5 * factor for side, factor in zip(made.grid.size, factors))))
-        made.whole.frame.use()
-        made.whole.frame.depth_mask = False
-        with drawn(self._ctx, join, _BETWEEN):
-            join.draw()
+        self._fill(join, made.whole, _BETWEEN)
+
+    def _spread(self, media: CoarseMedia, rays: RayList, listed: Target, target: Target, where: Where) -> None:
+        """What the rays of a list show, into their own pixels of `target`."""
+        spread = self._programs.get("transfer_join.frag", media.inputs, {"LISTED": 1})
+        spread.sample({**_named(listed), "places": rays.places})
+        self._fill(spread, target, where)
+
+    def _fill(self, draw: Draw, target: Target, where: Where) -> None:
+        target.frame.use()
+        target.frame.depth_mask = False
+        with drawn(self._ctx, draw, where):
+            draw.draw()
 
     def _targets(self, size: tuple[int, int], count: int, step: int) -> _Made:
         if self._made is None or self._made.made_for != (size, count, step):
             self.release()
-            self._made = _Made.of(self._ctx, size, count, step)
+            self._made = _Made(self._ctx, size, count, step)
         return self._made
 
 
@@ -184,42 +236,98 @@ class _Last:
 
 
 @dataclass(frozen=True, eq=False)
+class _Asked:
+    """What is to be drawn: media, the hits and tables that their rays are known by, the march, and a key of all rays."""
+
+    media: CoarseMedia
+    hit_map: HitMap
+    samplers: Samplers
+    march: Draw
+    rays: tuple
+
+
+def _prepare(march: Draw, hit_map: HitMap) -> None:
+    march.set(meeting_reach=march.inputs.plan.reach)
+    if "block_side" in march.program:
+        march.set(block_side=float(hit_map.block_side))
+
+
 class _Made:
-    """Textures, a pair for each stretch, of a picture's size and of the grid's.
+    """Textures, a pair for each stretch, of a picture's size, of the grid's, and of a list's.
 
     Attributes:
         made_for: the picture's size, the stretches, and the pixels from ray to ray.
+        grid: `whole` itself where each pixel has a ray.
         marks: draws into `depth`.
         depth: of `whole`: which pixels are marched by themselves.
+        own: those pixels.
+        samples, own_samples: those of the grid's rays and of `own`.
     """
 
-    made_for: tuple[tuple[int, int], int, int]
-    whole: Target
-    grid: Target
-    marks: moderngl.Framebuffer
-    depth: moderngl.Texture
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int, step: int):
+        self.made_for = size, count, step
+        self.depth = ctx.depth_texture(size)
+        coarse = -(-(size[0] - 1) // step) + 1, -(-(size[1] - 1) // step) + 1
+        self.whole = Target.of(ctx, [_texture(ctx, size) for _ in range(2 * count)], self.depth)
+        self.grid = self.whole
+        if step > 1:
+            grid = [_texture(ctx, coarse, "f4" if place == 1 else "f2") for place in range(2 * count)]  # a ray's history is the second's alpha
+            for texture in grid:
+                texture.filter = moderngl.LINEAR, moderngl.LINEAR
+            self.grid = Target.of(ctx, grid)
+        self.marks = ctx.framebuffer([], self.depth)
+        self.own = RayList(ctx, size if step > 1 else (1, 1))
+        self.samples, self.own_samples = KeptSamples(ctx, coarse), KeptSamples(ctx, size if step > 1 else (1, 1))
+        self._dear = False  # too many samples to be kept
+        self._listed: Target | None = None
 
-    @classmethod
-    def of(cls, ctx: moderngl.Context, size: tuple[int, int], count: int, step: int) -> _Made:
-        depth = ctx.depth_texture(size)
-        coarse = (1, 1) if step == 1 else tuple(-(-(side - 1) // step) + 1 for side in size)
-        whole, grid = ([_texture(ctx, own) for _ in range(2 * count)] for own in (size, coarse))
-        for texture in grid:
-            texture.filter = moderngl.LINEAR, moderngl.LINEAR
-        return cls((size, count, step), Target.of(ctx, whole, depth), Target.of(ctx, grid), ctx.framebuffer([], depth), depth)
+    @property
+    def is_told(self) -> bool:
+        """Whether nothing is left to be told of samples."""
+        return self._dear or self.samples.is_whole and (self.own_samples.is_whole or not self.own.count)
+
+    def forget(self) -> None:
+        """Rays are others from now on."""
+        self.samples.forget()
+        self.own_samples.forget()
+        self._dear = False
+
+    def untold(self) -> tuple[KeptSamples, Callable[[], np.ndarray], int]:
+        """The samples that are told next, what tells their pixels, and the pixels from ray to ray."""
+        if self.samples.is_whole:
+            return self.own_samples, lambda: self.own.held, 1
+        return self.samples, self._meeting, self.made_for[2]
+
+    def _meeting(self) -> np.ndarray:
+        """The rays of the grid that have met media, as it was marched; none where they have too many pieces there to be kept."""
+        texture = self.grid.textures[0]
+        pieces = np.frombuffer(texture.read(), np.float16).reshape(texture.height, texture.width, 4)[..., 3]
+        self._dear = float(pieces.sum(dtype=np.float64)) > MOST_KEPT
+        return in_blocks((pieces > 0.0) & (not self._dear))
+
+    def listed(self, ctx: moderngl.Context, rays: RayList) -> Target:
+        """Of the size of the list."""
+        if self._listed is None or self._listed.size != rays.size:
+            if self._listed is not None:
+                self._listed.release()
+            self._listed = Target.of(ctx, [_texture(ctx, rays.size) for _ in self.whole.textures])
+        return self._listed
 
     def release(self) -> None:
-        for item in (self.whole, self.grid, self.marks, self.depth):
-            item.release()
+        for item in (self.whole, self.marks, self.depth, self.own, self._listed, self.samples, self.own_samples):
+            if item is not None:
+                item.release()
+        if self.grid is not self.whole:
+            self.grid.release()
 
 
-def _texture(ctx: moderngl.Context, size: tuple[int, ...]) -> moderngl.Texture:
-    texture = ctx.texture((size[0], size[1]), 4, dtype="f4")
+def _texture(ctx: moderngl.Context, size: tuple[int, ...], dtype: str = "f2") -> moderngl.Texture:
+    texture = ctx.texture((size[0], size[1]), 4, dtype=dtype)
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     texture.repeat_x = texture.repeat_y = False
     return texture
 
 
 def _named(target: Target) -> dict[str, moderngl.Texture]:
-    return {f"{('gathered', 'passed')[place % 2]}{place // 2}": texture for place, texture in enumerate(target.textures)}
+    return {f"{('gathered', 'dimmed')[place % 2]}{place // 2}": texture for place, texture in enumerate(target.textures)}
 

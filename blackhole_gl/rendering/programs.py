@@ -236,6 +236,7 @@ class Programs:
             return asked[1]
         groups = [(slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS)]
         groups += [(f"thing_by_{way}", [kind for kind in chosen(plan, "thing") if kind.traits.meets == way]) for way in ("distance", "crossing")]
+        groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
         paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
         found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
         if asked is not None and asked[1] == found:

@@ -48,13 +48,13 @@ class TransferPass:
     @property
     def samplers(self) -> Mapping[str, moderngl.Texture]:
         """What shaders/common/stretches.glsl reads, by name."""
-        return {f"{('gathered', 'passed')[place % 2]}{place // 2}": texture for place, texture in enumerate(self._textures)}
+        return {f"{('gathered', 'dimmed')[place % 2]}{place // 2}": texture for place, texture in enumerate(self._textures)}
 
     def read(self) -> tuple[Float[np.ndarray, "stretches height width 3"], Float[np.ndarray, "stretches height width 3"]]:
         """What media add and let through, float32 (stretches, height, width, 3), row 0 at the bottom; without meaning where a ray meets none."""
         shape = self._textures[0].height, self._textures[0].width, 4
         texels = [np.frombuffer(texture.read(), np.float32).reshape(shape)[..., :3] for texture in self._textures]
-        return np.stack(texels[::2]), np.stack(texels[1::2])
+        return np.stack(texels[::2]), 1.0 - np.stack(texels[1::2])
 
     def release(self) -> None:
         """Gives the GL objects back."""

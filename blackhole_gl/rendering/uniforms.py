@@ -183,8 +183,8 @@ def switches(plan: Plan) -> dict[str, int]:
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "RAYS_IN_BLOCKS": 0, "HIT_MAP_REFINED": 0}
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0, "CELLS_FILLED": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
-    found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0), "THINGS": int(bool(plan.scene.things)), "STRETCHES": 0, "GRID": 0, "FROM_CAMERA": 0}
-    found["OVERLAY_SKY"] = 0
+    found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0), "THINGS": int(bool(plan.scene.things)), "STRETCHES": 0, "GRID": 0}
+    found |= {"LISTED": 0, "FROM_CAMERA": 0, "SAMPLES": 0, "OVERLAY_SKY": 0}
     found |= {"ROWS_HELD": int(len(plan.scene.media) == len(met.kinds(plan.scene, "medium")))}
     found["CAMERA_FALLS"] = int(plan.model.traits.crosses_horizon and plan.scene.camera.observer in observer.FALLING)
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}

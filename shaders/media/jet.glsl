@@ -91,13 +91,24 @@ float jet_knots(int i, vec3 x, float r, float inner_share) {
     return max(1.0 + medium_jet_knots(i) * inner_share * dot(weights, swings), 0.0);
 }
 
+// s of a place over that of the wall's middle.
+float jet_share(int i, vec3 x, float r) {
+    return jet_half_sine(x, r) * sqrt(jet_spread(i, r)) / jet_opening(i);
+}
+
+// Of knots and strands, mean 1.
+float medium_jet_pattern(int i, vec3 x, float footprint) {
+    float r = max(length(x), 1e-6), pattern = 1.0;
+    if (medium_jet_knots(i) > 0.0) pattern = jet_knots(i, x, r, min(jet_share(i, x, r), 1.0));  // on the axis all azimuths meet
+    return pattern;
+}
+
 Matter medium_jet_matter(int i, Sight sight) {
     vec3 x = sight.place;
     float r = max(length(x), 1e-6), inner = medium_jet_inner_radius(i), outer = medium_jet_outer_radius(i);
-    float share = jet_half_sine(x, r) * sqrt(jet_spread(i, r)) / jet_opening(i), beside = (share - 1.0) / medium_jet_thickness(i);
+    float beside = (jet_share(i, x, r) - 1.0) / medium_jet_thickness(i);
     float ends = smoothstep(inner, 1.5 * inner, r) * (1.0 - smoothstep(0.5 * outer, outer, r));
     float density = ends * exp(-0.5 * beside * beside) * pow(inner / max(r, inner), medium_jet_falloff(i));
-    if (medium_jet_knots(i) > 0.0) density *= jet_knots(i, x, r, min(share, 1.0));  // on the axis all azimuths meet
     float shift = emitted_shift(sight, zamo_velocity(x, jet_beta(i, x, r)));
     float frequency = 1.0 / max(shift * sight.energy, 1e-6), light = density * pow(frequency, -medium_jet_index(i));
     return Matter(medium_jet_brightness(i) * light * medium_jet_colour(i), vec3(medium_jet_depth(i) * light * pow(frequency, -2.5)), shift);

@@ -85,23 +85,28 @@ float slab_clouds(Clouds clouds, vec3 x, float turned, float width, uint seed) {
     return density;
 }
 
-Matter medium_slab_matter(int i, Sight sight) {
-    vec3 x = sight.place;
-    float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i), height = x.z / medium_slab_height(i);
+// Of clouds and lanes, mean 1.
+float medium_slab_pattern(int i, vec3 x, float footprint) {
+    float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i);
     Clouds shape = Clouds(medium_slab_octaves(i), medium_slab_contrast(i), medium_slab_frequency(i), medium_slab_grain(i), medium_slab_lanes(i));
-    float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
-    float density = max(1.0 - share, 0.0) * exp(-0.5 * height * height), rate = slab_rate(out_from_axis);
-    float width = max(max(length(sight.right), length(sight.up)), 0.25 * plan_medium_step * medium_slab_scale(i, x));
+    float width = max(footprint, 0.25 * plan_medium_step * medium_slab_scale(i, x));
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
     uvec2 seeds = uvec2(shear_seed.xy) * 16u;
-    vec2 turned = medium_slab_speed(i) * rate * shear_phase.xy;
+    vec2 turned = medium_slab_speed(i) * slab_rate(out_from_axis) * shear_phase.xy;
     vec2 clouds = vec2(slab_clouds(shape, x, turned.x, width, seeds.x), slab_clouds(shape, x, turned.y, width, seeds.y));
     if (shape.lanes > 0.0) {
+        float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
         vec2 lanes = vec2(slab_lanes(x, share, turned.x, shear_phase.x, width, shear_seed.x), slab_lanes(x, share, turned.y, shear_phase.y, width, shear_seed.y));
         clouds *= max(1.0 + shape.lanes * (lanes - 1.0), 0.0);
     }
-    density *= max(1.0 + dot(weights, clouds - 1.0), 0.0);
+    return max(1.0 + dot(weights, clouds - 1.0), 0.0);
+}
 
+Matter medium_slab_matter(int i, Sight sight) {
+    vec3 x = sight.place;
+    float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i), height = x.z / medium_slab_height(i);
+    float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
+    float density = max(1.0 - share, 0.0) * exp(-0.5 * height * height), rate = slab_rate(out_from_axis);
     float shift = emitted_shift(sight, rate * vec3(-x.y, x.x, 0.0)), warmth = inner / max(out_from_axis, 1e-6);
     vec3 colour = blackbody_colour(medium_slab_temperature_k(i) * pow(warmth, 0.75) * shift * sight.energy);
     vec3 absorption = vec3(density * medium_slab_depth(i));

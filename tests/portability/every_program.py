@@ -9,6 +9,7 @@ from dataclasses import replace
 from blackhole_gl.planning import Plan, plan
 from blackhole_gl.rendering.diagnostics import most_accurate, prepared
 from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.kept_samples import MOST_SAMPLES
 from blackhole_gl.rendering.post import TONE_TABLE
 from blackhole_gl.rendering.programs import Programs
 from blackhole_gl.rendering.reach import ALONE, FINER
@@ -139,6 +140,8 @@ def _of_instances() -> Iterator[Wanted]:
             beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"GRID": 1, "FROM_CAMERA": apart, "HIT_MAP_REFINED": apart}) for apart in (0, 1) if slot == "medium"]
+            drawn += [("transfer.frag", {"GRID": 1, "SAMPLES": 1}), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if slot == "medium" else []
+            drawn += [("transfer_join.frag", {"LISTED": 1})] if slot == "medium" else []
             drawn += [(path, {}) for path in ("transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
             drawn += [("shade_matter.frag", {"STRETCHES": 1, "MEETINGS": 0, "HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"ROWS_HELD": 1})] if slot == "medium" else []
