@@ -89,11 +89,6 @@ Light after_piece(Light light, vec3 gains, vec3 loses, float way) {
     return Light(light.gathered + light.passed * share * gains * way, light.passed * exp(-depth));
 }
 
-// Where a state of the march is.
-vec3 place_of(Orbit orbit, State s) {
-    return path_point(ray_path(orbit, s));
-}
-
 // Signed distance of the nearest medium, and how exactly surfaces there are to be found, r_s.
 vec2 room_at(vec3 x) {
     vec2 room = vec2(1e30);

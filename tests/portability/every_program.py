@@ -137,10 +137,11 @@ def _of_instances() -> Iterator[Wanted]:
             except SceneError:
                 continue  # this model cannot
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
+            changes = slot == "medium" and catalogue.plug_ins(slot)[kind].traits.changes
             beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"GRID": 1, "FROM_CAMERA": apart, "HIT_MAP_REFINED": apart}) for apart in (0, 1) if slot == "medium"]
-            drawn += [("transfer.frag", {"GRID": 1, "SAMPLES": 1}), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if slot == "medium" else []
+            drawn += [("transfer.frag", {"GRID": 1, "SAMPLES": 1}), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if changes else []
             drawn += [("transfer_join.frag", {"LISTED": 1})] if slot == "medium" else []
             drawn += [(path, {}) for path in ("transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
             drawn += [("shade_matter.frag", {"STRETCHES": 1, "MEETINGS": 0, "HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
