@@ -108,8 +108,8 @@ def conduct(conductor: Conductor) -> None:
     """Puts the conductor's keys into the window's hands and shows it every picture."""
     advance, update = commands.advance, picture.Picture.update
 
-    def led(state, hand, dt) -> None:
-        advance(state, replace(hand, held=conductor.hold(state)), dt)
+    def led(state, hand, dt, slept=0.0) -> None:
+        advance(state, replace(hand, held=conductor.hold(state)), dt, slept)
 
     def watched(self, *args, **kwargs) -> bool:
         rendered = update(self, *args, **kwargs)
