@@ -41,16 +41,18 @@ class CoarseMedia:
         step: pixels from ray to ray; 1: each has its own.
         footprint: pixels that what a ray sees is a mean of.
         passes: whether the next picture is another moment of the same, so that the grid and what lies at edges may take turns.
+        apart: whether those are rays of blocks, beside which others lie than in a picture: nothing is joined between them.
     """
 
     inputs: FrameInputs
     step: int
     footprint: float
     passes: bool
+    apart: bool = False
 
-    def drawn_as(self, size: tuple[int, int]) -> CoarseMedia:
-        """Of the same picture's rays drawn into `size` pixels, which need not lie side by side: each has its own."""
-        return replace(self, inputs=self.inputs.drawn_as(size), step=1)
+    def in_blocks(self, size: tuple[int, int], side: int) -> CoarseMedia:
+        """Of the same picture's rays in blocks of `side`², drawn into `size` pixels: each has its own, or under a moving camera four of sixteen share one."""
+        return replace(self, inputs=self.inputs.drawn_as(size), step=1 if self.passes or side < 4 else 2, apart=True)
 
 
 def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> CoarseMedia | None:
@@ -96,7 +98,7 @@ class CoarseTransfer:
         inputs = media.inputs
         march = self._programs.get("transfer.frag", inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": int(apart)})
         asked = _Asked(media, hit_map, samplers, march, (replace(inputs, time=0.0), hit_map.generation, march.serial, media.step))
-        made = self._targets(inputs.size, stretches(inputs.plan), media.step)
+        made = self._targets(inputs.size, stretches(inputs.plan), media.step, apart=media.apart)
         begins = self._last is None or self._last.rays != asked.rays
         if begins:
             made.forget()
@@ -114,11 +116,14 @@ class CoarseTransfer:
             self._sum(asked, made, made.samples, made.grid, EVERYWHERE)
         else:
             self._march(asked, made.grid.frame, (float(asked.media.step), asked.media.footprint), made.own)
-        if asked.media.step > 1:
-            if asked.rays != self._marked:
-                self._mark(asked, made)
-                self._marked = asked.rays
-            self._join(asked.media, made)
+        if asked.media.apart:
+            if asked.media.step > 1:
+                self._join(asked.media, made, EVERYWHERE)
+            return
+        if asked.rays != self._marked:
+            self._mark(asked, made)
+            self._marked = asked.rays
+        self._join(asked.media, made, _BETWEEN)
 
     def _draw_own(self, asked: _Asked, made: _Made) -> None:
         """The rays beside the grid's."""
@@ -193,12 +198,13 @@ class CoarseTransfer:
         made.whole.frame.depth_mask = False
         made.whole.frame.clear()
 
-    def _join(self, media: CoarseMedia, made: _Made) -> None:
+    def _join(self, media: CoarseMedia, made: _Made, where: Where) -> None:
         join = self._programs.get("transfer_join.frag", media.inputs)
         join.sample(_named(made.grid))
         factors = [1.0 / (media.step * side) for side in made.grid.size]
-        join.set(pixels_to_grid=(*factors, *(0.5 / side - 0.5 * factor for side, factor in zip(made.grid.size, factors))))
-        self._fill(join, made.whole, _BETWEEN)
+        offsets = [0.0 if media.apart else 0.5 / side - 0.5 * factor for side, factor in zip(made.grid.size, factors)]
+        join.set(pixels_to_grid=(*factors, *offsets))
+        self._fill(join, made.whole, where)
 
     def _spread(self, media: CoarseMedia, rays: RayList, listed: Target, target: Target, where: Where) -> None:
         """What the rays of a list show, into their own pixels of `target`."""
@@ -212,10 +218,10 @@ class CoarseTransfer:
         with drawn(self._ctx, draw, where):
             draw.draw()
 
-    def _targets(self, size: tuple[int, int], count: int, step: int) -> _Made:
-        if self._made is None or self._made.made_for != (size, count, step):
+    def _targets(self, size: tuple[int, int], count: int, step: int, *, apart: bool) -> _Made:
+        if self._made is None or self._made.made_for != (size, count, step, apart):
             self.release()
-            self._made = _Made(self._ctx, size, count, step)
+            self._made = _Made(self._ctx, size, count, step, apart=apart)
         return self._made
 
 
@@ -256,7 +262,7 @@ class _Made:
     """Textures, a pair for each stretch, of a picture's size, of the grid's, and of a list's.
 
     Attributes:
-        made_for: the picture's size, the stretches, and the pixels from ray to ray.
+        made_for: the picture's size, the stretches, the pixels from ray to ray, and whether its rays lie apart.
         grid: `whole` itself where each pixel has a ray.
         marks: draws into `depth`.
         depth: of `whole`: which pixels are marched by themselves.
@@ -264,20 +270,20 @@ class _Made:
         samples, own_samples: those of the grid's rays and of `own`.
     """
 
-    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int, step: int):
-        self.made_for = size, count, step
+    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int, step: int, *, apart: bool):
+        self.made_for = size, count, step, apart
         self.depth = ctx.depth_texture(size)
         coarse = -(-(size[0] - 1) // step) + 1, -(-(size[1] - 1) // step) + 1
         self.whole = Target.of(ctx, [_texture(ctx, size) for _ in range(2 * count)], self.depth)
         self.grid = self.whole
         if step > 1:
             grid = [_texture(ctx, coarse, "f4" if place == 1 else "f2") for place in range(2 * count)]  # a ray's history is the second's alpha
-            for texture in grid:
+            for texture in [] if apart else grid:
                 texture.filter = moderngl.LINEAR, moderngl.LINEAR
             self.grid = Target.of(ctx, grid)
         self.marks = ctx.framebuffer([], self.depth)
-        self.own = RayList(ctx, size if step > 1 else (1, 1))
-        self.samples, self.own_samples = KeptSamples(ctx, coarse), KeptSamples(ctx, size if step > 1 else (1, 1))
+        self.own = RayList(ctx, (1, 1) if apart else size)
+        self.samples, self.own_samples = KeptSamples(ctx, coarse), KeptSamples(ctx, (1, 1) if apart else size)
         self._dear = False  # too many samples to be kept
         self._listed: Target | None = None
 

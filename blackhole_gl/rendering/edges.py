@@ -65,7 +65,7 @@ class EdgeRays:
 
         Args:
             moving: fewer rays will do, as for every map that is not sharp.
-            coarse: media that are drawn at a resolution of their own; here each ray has its own.
+            coarse: media that are drawn at a resolution of their own.
         """
         moving = moving or not hit_map.is_sharp
         side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=moving)
@@ -78,7 +78,7 @@ class EdgeRays:
         if self._blocks is None or self._radiance is None or self._places is None:
             return
         size = self._blocks.size
-        self._shade.draw(inputs.drawn_as(size), self._map, self._radiance.frame, coarse.drawn_as(size) if coarse else None)
+        self._shade.draw(inputs.drawn_as(size), self._map, self._radiance.frame, coarse.in_blocks(size, self._blocks.side) if coarse else None)
         resolve = self._programs.get("edge_resolve.frag", inputs)
         resolve.set(pairs=self._blocks.side // 2)
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})
