@@ -148,7 +148,10 @@ class CoarseTransfer:
         march = self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1})
         samples, pixels, step = made.untold()
         if not samples.begun:
-            samples.begin(pixels())
+            listed = pixels()
+            if made.is_told:
+                return
+            samples.begin(listed)
         _prepare(march, asked.hit_map)
         samples.march_on(march, asked.samplers, (-float(step), asked.media.footprint))
 
@@ -305,11 +308,11 @@ class _Made:
         return self.samples, self._meeting, self.made_for[2]
 
     def _meeting(self) -> np.ndarray:
-        """The rays of the grid that have met media, as it was marched; none where they have too many pieces there to be kept."""
+        """The rays of the grid that have met media, as it was marched; where they have too many pieces to be kept, that is known from then on."""
         texture = self.grid.textures[0]
         pieces = np.frombuffer(texture.read(), np.float16).reshape(texture.height, texture.width, 4)[..., 3]
         self._dear = float(pieces.sum(dtype=np.float64)) > MOST_KEPT
-        return in_blocks((pieces > 0.0) & (not self._dear))
+        return in_blocks(pieces > 0.0)
 
     def listed(self, ctx: moderngl.Context, rays: RayList) -> Target:
         """Of the size of the list."""

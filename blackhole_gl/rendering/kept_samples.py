@@ -84,7 +84,9 @@ class KeptSamples:
 
     def forget(self) -> None:
         """The rays are others from now on."""
-        self._going, self.is_whole = None, False
+        for texture in self._atlas:
+            texture.release()
+        self._atlas, self._going, self.is_whole = (), None, False
 
     def begin(self, pixels: Int[np.ndarray, " pixels"]) -> None:
         """To be told of the rays of `pixels`."""

@@ -88,6 +88,17 @@ def test_samples_on_rays_that_stay_show_what_a_march_does(renderer: Renderer) ->
     assert off < 1e-3 and moved > 5.0 * off
 
 
+def test_where_samples_would_be_too_many_rays_are_marched_on(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coarse_transfer, "MOST_KEPT", 0)
+    scene = presets.load(["kerr"], SLAB | BEFORE_DISK | {"rays.lensing": True, "media.slab.depth": 1.01})
+    renderer.render(scene, 1.0, SIZE, glow_may_last=True)
+    marched = stretches_of(renderer)
+    for _ in range(4):
+        renderer.render(scene, 5.0, SIZE, glow_may_last=True)
+    renderer.render(scene, 1.0, SIZE, glow_may_last=True)
+    np.testing.assert_array_equal(stretches_of(renderer), marched)
+
+
 def test_media_are_drawn_with_all_else_where_things_lie_among_them() -> None:
     def way(values: dict, moving: bool = True) -> coarse_transfer.CoarseMedia | None:
         return coarse_transfer.of(FrameInputs.whole(make_plan(presets.load(["kerr"], values)), 0.0, SIZE), moving=moving, passes=not moving)
