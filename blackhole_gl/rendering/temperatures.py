@@ -23,7 +23,8 @@ class TemperatureProfile:
         if self._texture is not None and key == self._key:
             return self._texture
         values = disk_profile.table(*key[:5], edge=plan.disk_edge, torque=disk.inner_torque)
-        if self._texture is None:
+        if self._texture is None or self._texture.width != len(values):
+            self.release()
             self._texture = self._ctx.texture((len(values), 1), 1, dtype="f4", alignment=4)
             self._texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
             self._texture.repeat_x = self._texture.repeat_y = False

@@ -176,7 +176,7 @@ class Disk:
 
     enabled: bool = switch(True, "Show the disk.")
     inner_radius: float = number(0.0, 0.0, 20.0, "r_s", "Inner edge; never inside the innermost stable circular orbit (ISCO), which 0 chooses.")
-    outer_radius: float = number(10.0, 1.0, 20.0, "r_s", "Outer edge; not inside the inner one.")
+    outer_radius: float = number(10.0, 1.0, 100.0, "r_s", "Outer edge; not inside the inner one.")
     thickness: float = number(
         0.5, 0.01, 2.0, "r_s",
         "Half the thickness of disks with depth, media of the kind slab, where they state none of their own; the disk itself is thin.",

@@ -25,7 +25,7 @@ LAYERS = (
     {"app"},
     {"desktop", "film", "layers", "self_check"},
     {"api"},
-    {"asked"},
+    {"asked", "notebook"},
     {"film_cluster"},
     {"films", "research"},
     {"cli"},

@@ -22,6 +22,7 @@ from PIL import Image
 
 import blackhole_gl as bh
 from blackhole_gl import api, gl_thread
+from blackhole_gl.notebook import Sliders
 
 SIZE = (64, 36)
 ROOT = Path(__file__).resolve().parents[2]
@@ -204,6 +205,30 @@ def radiance_is_linear_and_before_the_tone_map() -> None:
 def a_scene_shows_itself_in_a_notebook() -> None:
     picture = Image.open(io.BytesIO(bh.load("kerr")._repr_png_()))
     assert picture.size == (640, 360)
+
+
+def sliders_draw_their_scene_anew() -> None:
+    """As a browser moves them: by their values."""
+    made = Sliders(bh.load("kerr"), ["hole.spin", "camera.distance", "disk.enabled", "disk.orbit", "rays.orders", "disk.inner_radius"], SIZE)
+    picture, spin, distance, disk, orbit, orders, inner, told = made.widget.children
+    assert [control.value for control in (spin, distance, disk, orbit, orders)] == [0.9, 20.0, True, "prograde", 3]
+    for control, value in ((spin, 0.25), (distance, 40.0), (disk, False), (disk, True), (orbit, "retrograde"), (orders, 1)):
+        control.value = value
+        assert np.array_equal(np.asarray(Image.open(io.BytesIO(picture.value))), bh.render(made.scene, SIZE))
+    assert made.scene == bh.load("kerr", {"hole.spin": 0.25, "camera.distance": 40.0, "disk.orbit": "retrograde", "rays.orders": 1})
+    kept = picture.value
+    inner.value = 15.0
+    assert "disk.inner_radius: got 15; allowed is at most 10" in told.value and made.scene.disk.inner_radius == 0.0 and picture.value == kept
+    inner.value = 5.0
+    assert told.value == "" and made.scene.disk.inner_radius == 5.0
+    assert "application/vnd.jupyter.widget-view+json" in made._repr_mimebundle_()
+    for key in ("sky.picture.file", "no.such"):
+        try:
+            Sliders(bh.load("kerr"), [key], SIZE)
+        except ValueError as error:
+            assert key in str(error)
+        else:
+            raise AssertionError(key)
 
 
 def what_is_saved_opens_again() -> None:

@@ -72,6 +72,40 @@ def test_the_reference_is_made_from_the_docstrings(tmp_path: Path) -> None:
     assert (tmp_path / "page.md").read_text(encoding="utf-8") == (ROOT / "docs" / "python_reference.md").read_text(encoding="utf-8"), "make api-page"
 
 
+LONG = """
+import multiprocessing, os
+from pathlib import Path
+import numpy as np
+import blackhole_gl as bh
+
+def memory():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE") / 2**20
+
+def draw(spin):
+    return bh.render(bh.load("kerr", {"hole.spin": spin}), (64, 36))
+
+if __name__ == "__main__":
+    spins = np.linspace(0.0, 0.99, 40)
+    truth = [draw(spin) for spin in spins]
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        assert all(map(np.array_equal, pool.map(draw, spins, chunksize=20), truth)), "two processes draw what one does"
+    begun = memory()
+    for count in range(1000):
+        assert np.array_equal(draw(spins[count % 40]), truth[count % 40])
+    print(memory() - begun)
+"""
+
+
+@pytest.mark.slow
+def test_a_thousand_pictures_keep_no_memory_and_two_processes_draw_the_same(tmp_path: Path) -> None:
+    (tmp_path / "long.py").write_text(LONG, encoding="utf-8")
+    run = subprocess.run([sys.executable, "long.py"], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=290)
+    assert run.returncode == 0, run.stderr
+    print(f"a thousand pictures: {float(run.stdout):+.2f} MB")
+    # A picture and its parts have 0.1 MB: a twentieth of them kept would be 5 MB.
+    assert float(run.stdout) < 4.0
+
+
 @pytest.mark.parametrize("inclination", [1.0, 30.0, 60.0, 90.0])
 @pytest.mark.parametrize("spin", [0.0, 0.3, 0.6, 0.9, 0.998])
 def test_the_critical_curve_is_bardeens(spin: float, inclination: float) -> None:

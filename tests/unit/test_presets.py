@@ -102,7 +102,7 @@ def test_overrides_are_read_by_the_kind_of_their_field(key, given, value):
 
 @pytest.mark.parametrize("given", ["twelve", "", "nan", "-1", "1e999", True, None, [1], 10**400, math.nan])
 def test_a_wrong_override_names_key_and_range(given):
-    with pytest.raises(PresetError, match=r"^--set: disk\.outer_radius: .*allowed is a number from 1 to 20 r_s"):
+    with pytest.raises(PresetError, match=r"^--set: disk\.outer_radius: .*allowed is a number from 1 to 100 r_s"):
         presets.load([], {"disk.outer_radius": given})
 
 
