@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +25,7 @@ from .rendering.frame import Renderer
 from .scene import presets
 
 _MANIFEST = "film.json"
-_WAITING = 2  # frames that are drawn and not yet written: one is packed while the next is drawn
+_WAITING = 4  # of frames that are drawn, what is still to be written or packed: that goes on while the next are drawn
 _BLUR_SAMPLES = 8  # moments in a frame while the shutter is open
 
 
@@ -44,7 +47,7 @@ class Codec:
 
 
 CODECS = {
-    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "medium"))),
+    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "veryfast"))),
     "h265": Codec(("libx265",), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "18"), ("tag", "hvc1"), ("x265-params", "log-level=none"))),
     "vp9": Codec(("libvpx-vp9",), (".webm", ".mkv"), "yuv420p", (("crf", "20"), ("b", "0"), ("row-mt", "1"))),
     "av1": Codec(("libsvtav1", "libaom-av1"), (".mp4", ".webm", ".mkv"), "yuv420p10le", (("crf", "22"),)),
@@ -149,25 +152,48 @@ def missing(film: Film, folder: Path, numbers: Iterable[int]) -> list[int]:
     return [number for number in numbers if not frame_path(folder, number).is_file()]
 
 
-def draw(film: Film, folder: Path, numbers: Iterable[int], renderer: Renderer, progress: Callable[[float], None] | None = None) -> int:
+def draw(
+    film: Film,
+    folder: Path,
+    numbers: Iterable[int],
+    renderer: Renderer,
+    progress: Callable[[float], None] | None = None,
+    pack: Callable[[np.ndarray], None] | None = None,
+) -> int:
     """Draws those frames of `numbers` that are missing; returns how many those were.
+
+    Args:
+        pack: is given the pixels of each of `numbers`, also those that are there, in order and while others are drawn: `packing`.
 
     Raises:
         SceneError, ValueError: a moment cannot be drawn.
         OSError: a frame cannot be written.
     """
-    wanted = missing(film, folder, numbers)
-    waiting: list[Future[None]] = []
-    with ThreadPoolExecutor(1) as writer:
-        for done, number in enumerate(wanted):
-            waiting.append(writer.submit(png.write, frame_path(folder, number), *frame(renderer, film, number, folder)))
+    numbers = list(numbers)
+    wanted = set(missing(film, folder, numbers))
+    if pack is None:
+        numbers = [number for number in numbers if number in wanted]
+    waiting: deque[Future[None]] = deque()
+    with ThreadPoolExecutor(1) as writer, ThreadPoolExecutor(1) as packer:
+        for done, number in enumerate(numbers):
+            if number in wanted:
+                pixels, text = frame(renderer, film, number, folder)
+                waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text))
+                if pack is not None:
+                    waiting.append(packer.submit(pack, pixels))
+            elif pack is not None:
+                waiting.append(packer.submit(_pack_kept, pack, frame_path(folder, number)))
             while len(waiting) > _WAITING:
-                waiting.pop(0).result()
+                waiting.popleft().result()
             if progress is not None:
-                progress((done + 1) / len(wanted))
+                progress((done + 1) / len(numbers))
         for written in waiting:
             written.result()
     return len(wanted)
+
+
+def _pack_kept(pack: Callable[[np.ndarray], None], path: Path) -> None:
+    pack(png.read(path))
 
 
 def frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np.ndarray, str]:
@@ -195,7 +221,19 @@ def encoders() -> dict[str, str]:
 
 
 def encode(film: Film, folder: Path, out: Path, codec_name: str) -> None:
-    """Packs all frames in `folder` into `out`, which is written whole or not at all.
+    """Packs all frames in `folder` into `out`, as `packing` does.
+
+    Raises:
+        FilmError: as there.
+    """
+    with packing(film, out, codec_name) as pack:
+        for pixels in _pictures(film, folder):
+            pack(pixels)
+
+
+@contextmanager
+def packing(film: Film, out: Path, codec_name: str) -> Generator[Callable[[np.ndarray], None]]:
+    """Takes the pixels of all frames one after the other, and packs them into `out`, which is written whole or not at all.
 
     Raises:
         FilmError: there is no PyAV or no such encoder, or the codec takes even sizes alone.
@@ -207,11 +245,14 @@ def encode(film: Film, folder: Path, out: Path, codec_name: str) -> None:
     try:
         with av.open(str(part), "w") as container:
             container.metadata.update({"title": film.flight.title or out.stem, "comment": film.told()})
-            stream = _stream(container, film, codec, available[codec_name])
-            for number, pixels in enumerate(_pictures(film, folder)):
+            stream, numbers = _stream(container, film, codec, available[codec_name]), count()
+
+            def pack(pixels: np.ndarray) -> None:
                 picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709")
-                picture.pts, picture.time_base = number, 1 / film.fps
+                picture.pts, picture.time_base = next(numbers), 1 / film.fps
                 container.mux(stream.encode(picture))
+
+            yield pack
             container.mux(stream.encode(None))
         part.replace(out)
     finally:

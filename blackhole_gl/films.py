@@ -72,13 +72,17 @@ def video(
             from . import film_cluster
 
             film_cluster.draw(made, folder, wanted, dask, progress)
+        elif packing is not None and wanted == range(made.count):
+            with film.packing(made, out, packing) as pack:
+                film.draw(made, folder, wanted, renderer_by(backend), progress, pack)
         else:
             film.draw(made, folder, wanted, renderer_by(backend), progress)
     left = len(film.missing(made, folder, range(made.count)))
     if packing is None or left:
         print(f"{made.count - left} of {made.count} frames in {folder}", file=sys.stderr)
         return
-    film.encode(made, folder, out, packing)
+    if dask is not None or wanted != range(made.count):
+        film.encode(made, folder, out, packing)
     if not keep_frames:
         film.clear(folder)
 

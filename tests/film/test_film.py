@@ -95,6 +95,30 @@ def test_a_packed_film_has_every_frame_at_its_time(made: film.Film, drawn: Path,
             assert np.argmin(apart) == number
 
 
+def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, drawn: Path, renderer: Renderer, tmp_path: Path) -> None:
+    """Stopped and gone on with, too: what is there comes from its files."""
+    film.encode(made, drawn, tmp_path / "after.mp4", "h264")
+    folder, stopped = tmp_path / "frames", []
+    film.begin(made, folder)
+
+    def stop(share: float) -> None:
+        stopped.append(share)
+        if len(stopped) == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), film.packing(made, tmp_path / "while.mp4", "h264") as pack:
+        film.draw(made, folder, range(9), renderer, stop, pack)
+    assert not list(tmp_path.glob("*while*")), "half a film is none"
+    with film.packing(made, tmp_path / "while.mp4", "h264") as pack:
+        assert film.draw(made, folder, range(9), renderer, None, pack) == 5
+    frames = []
+    for name in ("after", "while"):
+        with av.open(str(tmp_path / f"{name}.mp4")) as container:
+            frames.append([frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)])
+    assert len(frames[0]) == 9
+    np.testing.assert_array_equal(*frames)
+
+
 def test_a_shutter_gathers_light_from_the_frames_moment_on(made: film.Film, renderer: Renderer, tmp_path: Path) -> None:
     blurred = film.Film(made.flight, Fraction(1), 2, SIZE, shutter_deg=180.0)
     times = [moment.time for moment in blurred.moments(0)]
