@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import count
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from .output import png
 from .output.files import write_whole
+from .output.film_file import CODECS, FilmError, packing
 from .physics.flight import Flight, Moment
 from .rendering.annotation import annotated
 from .rendering.frame import Renderer
@@ -29,36 +27,8 @@ _WAITING = 4  # of frames that are drawn, what is still to be written or packed:
 _BLUR_SAMPLES = 8  # moments in a frame while the shutter is open
 
 
-@dataclass(frozen=True)
-class Codec:
-    """How pictures are packed.
-
-    Attributes:
-        encoders: names of FFmpeg's that do, the best first.
-        suffixes: of files that may hold it.
-        pixels: the format of its pixels.
-        options: of the encoder, nearly without loss.
-    """
-
-    encoders: tuple[str, ...]
-    suffixes: tuple[str, ...]
-    pixels: str
-    options: tuple[tuple[str, str], ...]
-
-
-CODECS = {
-    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "veryfast"))),
-    "h265": Codec(("libx265",), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "18"), ("tag", "hvc1"), ("x265-params", "log-level=none"))),
-    "vp9": Codec(("libvpx-vp9",), (".webm", ".mkv"), "yuv420p", (("crf", "20"), ("b", "0"), ("row-mt", "1"))),
-    "av1": Codec(("libsvtav1", "libaom-av1"), (".mp4", ".webm", ".mkv"), "yuv420p10le", (("crf", "22"),)),
-    "prores": Codec(("prores_ks",), (".mov",), "yuv422p10le", (("profile", "3"),)),
-}
 _USUAL = {".mp4": "h264", ".mov": "prores", ".webm": "vp9", ".mkv": "h264"}
 SUFFIXES = tuple(_USUAL)
-
-
-class FilmError(ValueError):
-    """A film that cannot be made; the text says what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -163,7 +133,7 @@ def draw(
     """Draws those frames of `numbers` that are missing; returns how many those were.
 
     Args:
-        pack: is given the pixels of each of `numbers`, also those that are there, in order and while others are drawn: `packing`.
+        pack: is given the pixels of each of `numbers`, also those that are there, in order and while others are drawn: `packing_of`.
 
     Raises:
         SceneError, ValueError: a moment cannot be drawn.
@@ -209,79 +179,29 @@ def frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np
     return pixels, presets.picture_text(shown.scene, shown.time, folder.absolute())
 
 
-def encoders() -> dict[str, str]:
-    """Codec → the encoder that this installation has for it.
-
-    Raises:
-        FilmError: there is no PyAV.
-    """
-    available = _av().codec.codecs_available
-    found = {name: next((encoder for encoder in codec.encoders if encoder in available), "") for name, codec in CODECS.items()}
-    return {name: encoder for name, encoder in found.items() if encoder}
-
-
 def encode(film: Film, folder: Path, out: Path, codec_name: str) -> None:
-    """Packs all frames in `folder` into `out`, as `packing` does.
+    """Packs all frames in `folder` into `out`, as `packing_of` does.
 
     Raises:
         FilmError: as there.
     """
-    with packing(film, out, codec_name) as pack:
+    with packing_of(film, out, codec_name) as pack:
         for pixels in _pictures(film, folder):
             pack(pixels)
 
 
-@contextmanager
-def packing(film: Film, out: Path, codec_name: str) -> Generator[Callable[[np.ndarray], None]]:
+def packing_of(film: Film, out: Path, codec_name: str) -> AbstractContextManager[Callable[[np.ndarray], None]]:
     """Takes the pixels of all frames one after the other, and packs them into `out`, which is written whole or not at all.
 
     Raises:
-        FilmError: there is no PyAV or no such encoder, or the codec takes even sizes alone.
+        FilmError: there is no PyAV or no such encoder.
     """
-    av, codec, available = _av(), CODECS[codec_name], encoders()
-    if codec_name not in available:
-        raise FilmError(f"--codec: got {codec_name}, which this installation of PyAV cannot write; allowed is one of {', '.join(available)}")
-    part = out.with_name(f".{out.stem}.part{out.suffix}")
-    try:
-        with av.open(str(part), "w") as container:
-            container.metadata.update({"title": film.flight.title or out.stem, "comment": film.told()})
-            stream, numbers = _stream(container, film, codec, available[codec_name]), count()
-
-            def pack(pixels: np.ndarray) -> None:
-                picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709")
-                picture.pts, picture.time_base = next(numbers), 1 / film.fps
-                container.mux(stream.encode(picture))
-
-            yield pack
-            container.mux(stream.encode(None))
-        part.replace(out)
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def refuse_size(size: tuple[int, int], codec_name: str) -> None:
-    """Raises FilmError where pictures of `size` cannot be packed: colours have half the resolution."""
-    if any(side % 2 for side in size):
-        raise FilmError(f"--size: got {size[0]}x{size[1]}; allowed with {codec_name} are even numbers")
+    return packing(out, codec_name, film.size, film.fps, film.flight.title or out.stem, film.told())
 
 
 def clear(folder: Path) -> None:
     """Removes the frames of a film that is whole."""
     shutil.rmtree(folder)
-
-
-def _stream(container: Any, film: Film, codec: Codec, encoder: str) -> Any:
-    options = dict(codec.options)
-    tag = options.pop("tag", None)
-    stream = container.add_stream(encoder, rate=film.fps, options=options)
-    stream.width, stream.height = film.size
-    stream.pix_fmt = codec.pixels
-    context = stream.codec_context
-    context.time_base = 1 / film.fps
-    context.color_primaries = context.color_trc = context.colorspace = 1  # BT.709, which players take for HD pictures
-    if tag:
-        context.codec_tag = tag
-    return stream
 
 
 def _pictures(film: Film, folder: Path) -> Iterator[np.ndarray]:
@@ -293,12 +213,3 @@ def _pictures(film: Film, folder: Path) -> Iterator[np.ndarray]:
             if number + 1 < film.count:
                 ahead = reader.submit(png.read, frame_path(folder, number + 1))
             yield pixels
-
-
-def _av() -> Any:
-    os.environ.setdefault("SVT_LOG", "1")  # of the encoder of AV1, which tells its settings else
-    try:
-        import av
-    except ImportError:
-        raise FilmError("a film needs PyAV: pip install 'blackhole-gl[film]'; an --out without a suffix gives a folder of PNG pictures instead") from None
-    return av

@@ -42,6 +42,7 @@ def video(
 ) -> None:
     """Draw a film, every frame at its exact time. Started again after whatever stopped it, it goes on with the first frame that is missing."""
     from . import film
+    from .output import film_file
 
     path = _found(path)
     preset = [*(names or ()), *(preset or ())] or _presets(path)
@@ -56,9 +57,9 @@ def video(
     )
     packing = film.codec_of(out, codec) if out.suffix else None
     if packing is not None:
-        film.refuse_size(made.size, packing)
+        film_file.refuse_size(made.size, packing)
         refuse_unwritable(out, film.SUFFIXES, "a film")
-        film.encoders()
+        film_file.encoders()
     wanted = range(made.count) if frames is None else _share(frames, made.count)
     refuse_unmet(scene, set_)
     tell_warnings(scene)
@@ -73,7 +74,7 @@ def video(
 
             film_cluster.draw(made, folder, wanted, dask, progress)
         elif packing is not None and wanted == range(made.count):
-            with film.packing(made, out, packing) as pack:
+            with film.packing_of(made, out, packing) as pack:
                 film.draw(made, folder, wanted, renderer_by(backend), progress, pack)
         else:
             film.draw(made, folder, wanted, renderer_by(backend), progress)

@@ -21,6 +21,7 @@ _HELP = {action.name: action.help for action in ACTIONS}
 _BUTTONS = (
     ("open", "Open …"),
     ("picture_window", "Picture …"),
+    ("record", "Record"),
     ("values", "Values"),
     ("paths", "Paths of light"),
     ("sides", "Side by side"),
@@ -44,7 +45,7 @@ def draw(state: WindowState, bindings: Bindings, do: Callable[[str], None]) -> N
     _time(state)
     for action, label in _BUTTONS:
         imgui.same_line()
-        _button(action, label, bindings, do)
+        _button(action, "Stop recording" if action == "record" and state.recording else label, bindings, do)
 
 
 def _button(action: str, label: str, bindings: Bindings, do: Callable[[str], None]) -> None:

@@ -85,6 +85,8 @@ ACTIONS: tuple[Action, ...] = (
     Action("search", ("CTRL+P",), "Search settings, presets, views and commands"),
     Action("picture", ("F12",), "Save the picture (PNG with the scene inside)"),
     Action("picture_window", ("SHIFT+F12",), "Save a picture of any size, with any number of rays a pixel"),
+    Action("record", ("F9",), "Record what the window shows as a film, or stop"),
+    Action("record_exact", ("SHIFT+F9",), "Record frame by frame, every picture exact, however long each takes; or stop"),
     Action("full_screen", ("F11",), "Full screen"),
     Action("view", ("V",), "Next view: picture, steps, orders, g-factor, temperature, difference, conservation, unresolved"),
     Action("labels", ("L",), "Show or hide labels: shadow, rings, innermost stable orbit, sides"),

@@ -124,6 +124,8 @@ def messages(state: WindowState, picture: Picture | None, corner: Corner, width:
         corner = _message("Preparing", "Preparing the programs of this scene …", corner, width, is_error=False)
     if state.way_out:
         corner = _message("Way out", state.way_out, corner, width, is_error=False)
+    if state.recording:
+        corner = _message("Recording", state.recording, corner, width, is_error=False)
     if state.shader_error:
         corner = _message("Shader", state.shader_error, corner, width, is_error=True)
     if state.render_error:

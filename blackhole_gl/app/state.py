@@ -56,6 +56,7 @@ class WindowState:
         replace_file: the path that the next Save may overwrite.
         asked_for_files: the preset whose files outside its folder were just left out; see `files_outside`.
         way_out: a line for where nothing is to be seen; empty elsewhere.
+        recording: a line on the film that is recorded; empty while none is.
         shader_error: what is wrong with the shaders on disk, or None.
         render_error: why the last picture could not be made, or None.
     """
@@ -93,6 +94,7 @@ class WindowState:
     asked_for_files: str = ""
     notice: Notice | None = None
     way_out: str = ""
+    recording: str = ""
     shader_error: str | None = None
     render_error: str | None = None
 

@@ -30,6 +30,7 @@ from . import (
     keys,
     overlay,
     preset_switch,
+    recorder,
     runner,
     scene_files,
     search_window,
@@ -141,6 +142,7 @@ def run(
             at_end.callback(window.warm_up.close)
             at_end.callback(window.live_chart.close)
             at_end.callback(window.picture_window.close)
+            at_end.callback(window.recorder.close)
             at_end.callback(window.dialog.close)
             while not (params.app_shall_exit or ending.signal or window.failure.error or (driver is not None and driver.finished)):
                 immapp.manual_render.render()
@@ -192,6 +194,7 @@ class Window:
         self._search = SearchWindow()
         self.dialog = FileDialog()
         self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
+        self.recorder = recorder.Recorder(picture_folder)
         self._escape = Escape()
         self.failure = Failure()
         self._bar = bar.toolbar(self.failure.kept_from(self.draw_bar))
@@ -253,7 +256,7 @@ class Window:
         imgui.get_style().font_scale_main = self.kept.text_size
         runner.work_by_keys(self.state.panel_keys, widgets.list_is_open())
         by_view = any(part.busy(self.state) for part in (self.live_chart, self.line_plot, self.side_by_side))
-        measuring = by_view or self.path_view.busy or self.picture_window.busy
+        measuring = by_view or self.path_view.busy or self.picture_window.busy or self.recorder.busy
         busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (glfw_window.is_minimised() or preparing or not busy)
@@ -264,7 +267,7 @@ class Window:
         """The hand's doings, and what is written over the picture."""
         state, view = self.state, self.view()
         passed = imgui.get_io().delta_time
-        dt = min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S)
+        dt = self.recorder.dt(min(passed, _LONGEST_FRAME_S if self._was_moving else _FIRST_FRAME_S))
         ways, sticks = self._mouse.poll(view.height), gamepad.poll()
         pressed, held = self._shortcuts.poll(state.panel_keys or widgets.list_is_open(), self._mouse.looks)
         if self._search.expects_keys(state):
@@ -274,7 +277,7 @@ class Window:
         self._escape.poll(state)
         hand = commands.Hand(*ways, held, sticks.fly).turned(sticks.look, dt)
         state.dragging = self._mouse.drags
-        commands.advance(state, hand, dt, passed - dt)
+        commands.advance(state, hand, dt, 0.0 if self.recorder.exact else passed - dt)
         if not (state.timeline.plays or self._gesture.lasts(hand, state.clock)):
             state.record()
         self._was_moving = state.is_moving or bool(held)
@@ -329,6 +332,8 @@ class Window:
         self.picture_window.advance(self._gl, self.state)
         self._picking.advance(self._gl, self.state, self.picture)
         self.picture.draw(window, view.area)
+        if self.picture.is_current:
+            self.recorder.take(self.state, window, view.area)
         if self.picture.is_current and self.state.render_error is None:
             self._way_out.advance(self.state, window, view.area)
         self.side_by_side.draw(self.state, window, view.area)
@@ -344,6 +349,8 @@ class Window:
         self.state.record()
         if action in file_commands.NAMES:
             file_commands.do(action, self.state, self.dialog)
+        elif action in recorder.NAMES:
+            self.recorder.do(action, self.state)
         elif action == "quit":
             hello_imgui.get_runner_params().app_shall_exit = True
         else:
@@ -366,12 +373,13 @@ class Window:
     def _render(self, area: Area, window: moderngl.Framebuffer) -> None:
         state = self.state
         editing = self._editing.lasts(state.scene)
-        moving = (state.is_moving or editing) and not state.picture_wanted
+        exact = state.picture_wanted or self.recorder.exact
+        moving = (state.is_moving or editing) and not exact
         camera_moving = editing or state.camera_moves
         self.side_by_side.advance(self._gl, state, area, glfw.get_time(), moving=moving, camera_moving=moving and camera_moving)
         try:
             rendered = self.picture.update(
-                state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=state.picture_wanted, window=window
+                state.scene, state.time, area, moving=moving, camera_moving=moving and camera_moving, exact=exact, window=window
             )
         except Exception as error:  # whatever the renderer cannot do, the window stays, with the last good picture and the reason
             text = str(error) or type(error).__name__

@@ -106,10 +106,10 @@ def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, dr
         if len(stopped) == 4:
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt), film.packing(made, tmp_path / "while.mp4", "h264") as pack:
+    with pytest.raises(KeyboardInterrupt), film.packing_of(made, tmp_path / "while.mp4", "h264") as pack:
         film.draw(made, folder, range(9), renderer, stop, pack)
     assert not list(tmp_path.glob("*while*")), "half a film is none"
-    with film.packing(made, tmp_path / "while.mp4", "h264") as pack:
+    with film.packing_of(made, tmp_path / "while.mp4", "h264") as pack:
         assert film.draw(made, folder, range(9), renderer, None, pack) == 5
     frames = []
     for name in ("after", "while"):
