@@ -30,13 +30,13 @@ def levels_of(path: Path) -> list[float]:
         return [float(frame.to_ndarray(format="rgb24").mean()) for frame in frames]
 
 
-def recorded(tmp_path: Path, action: str, passed: list[float], area: Area = Area(0, 0, 65, 33)) -> tuple[WindowState, list[float]]:
+def recorded(tmp_path: Path, action: str, passed: list[float]) -> tuple[WindowState, list[float]]:
     """Takes a picture after each of these seconds, one a tenth brighter than the other."""
     state, recorder, window = WindowState.start(Scene()), Recorder(tmp_path), Shown()
     recorder.do(action, state)
     for seconds in passed:
         state.clock += recorder.dt(seconds)
-        recorder.take(state, window, area)
+        recorder.take(state, window, Area(0, 0, 65, 33))
         assert "frames" in state.recording
         window.level += 20
     recorder.do(action, state)
