@@ -148,6 +148,8 @@ def _judge_rays(renderer: Renderer, scene: Scene, case: Case) -> Judgement:
 def _true_model(scene: Scene) -> tuple[str, float]:
     """(twin, a*) of the space-time that the scene's model is meant to show."""
     spin = space_time(scene).spin
+    if _is_curved(scene) and scene.camera.observer in observer.FALLING:
+        return "kerr", spin
     return ("kerr" if spin else "schwarzschild") if _is_curved(scene) else "flat", spin
 
 

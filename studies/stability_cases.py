@@ -182,6 +182,9 @@ _PLANE = "The ray never leaves z = 0: heights of ±0 turn into crossings, and an
 _POLE = "In (θ, φ) coordinates φ jumps by π at the pole and 1/sin θ has no bound."
 _HORIZON = "Redshift and shadow diverge: 1 − 1/r loses all its digits."
 
+_INSIDE = "Nothing rests there, and Boyer–Lindquist's t and φ are of no use: models that do not lead through the horizon refuse the camera."
+_ALL_ROUND = listed([0.15, 0.35, 1.2, 1.5, 2.0, 2.6])  # none near the shadow's edge, 0.7 to 1.0
+
 CASES: tuple[Case, ...] = (
     Case(
         "shadow-15",
@@ -406,6 +409,40 @@ CASES: tuple[Case, ...] = (
         "Places far away leave float32 no digits near the hole.",
         values=_camera(1e4),
         rays=impact(2.0, 2.7, 5.0, 20.0, 50.0),
+    ),
+    Case(
+        "fall-1.2",
+        "camera's place",
+        "Falling like rain at 1.2 r_s",
+        "Frames by √(1 − 1/r), or the aberration of one that rests: the fall is at 0.91 c.",
+        values=_camera(1.2, camera__observer="rain"),
+        rays=_ALL_ROUND,
+    ),
+    Case(
+        "fall-0.5",
+        "camera's place",
+        "Falling like rain at 0.5 r_s, inside the horizon",
+        _INSIDE,
+        values=_camera(0.5, camera__observer="rain"),
+        rays=_ALL_ROUND,
+    ),
+    Case(
+        "fall-kerr",
+        "camera's place",
+        "Falling like rain at 0.75 r_s, just above the horizon of a* = 0.9",
+        "A twist that is divided by Δ has a pole just below.",
+        values=_camera(0.75, spin=0.9, camera__observer="rain"),
+        rays=_ALL_ROUND,
+        needs="spin",
+    ),
+    Case(
+        "fall-0.5-kerr",
+        "camera's place",
+        "Falling like rain at 0.5 r_s, inside the horizon of a* = 0.9",
+        _INSIDE,
+        values=_camera(0.5, 30.0, 0.9, camera__observer="rain"),  # from 80° the twin counts crossings inside, without disk
+        rays=_ALL_ROUND,
+        needs="spin",
     ),
     Case("spin-tiny", "extreme spins", "a* = 1e-8", "Closed forms that divide by a.", values=_camera(10.0, 60.0, 1e-8), rays=whole_sky(64), needs="spin"),
     Case(

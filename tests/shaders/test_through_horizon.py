@@ -62,6 +62,19 @@ def test_rays_of_a_fall_are_those_of_kerr_and_schild(renderer: Renderer, spin: f
     _agree(renderer, falling(spin, distance, inclination), 120)
 
 
+@pytest.mark.parametrize("spin, distance, inclination", [(0.0, 0.12, 80.0), (0.9, 0.6, 80.0), (0.998, 0.52, 60.0)])
+def test_the_plans_own_steps_inside_err_by_less_than_half_a_pixel(renderer: Renderer, spin: float, distance: float, inclination: float) -> None:
+    """At 99 % of the whole sky, in pixels of a picture 1080 high and 45° wide: what the plan promises there. With plain steps of rk4 it was 5, 30 and 33."""
+    camera = {"camera.observer": "rain", "camera.distance": distance, "camera.inclination_deg": inclination}
+    scene = presets.load(["kerr"], {"hole.spin": spin, "rays.model": "kerr", **camera})
+    random = np.random.default_rng(3)
+    rays = np.column_stack([np.arccos(random.uniform(-1.0, 1.0, 400)), random.uniform(0.0, 2.0 * np.pi, 400)])
+    found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+    np.testing.assert_array_equal(found.fate, twin.fate)
+    off = np.linalg.norm(found.direction - twin.direction, axis=1)[found.fate == 1]
+    assert np.quantile(off, 0.99) < 0.5 * math.radians(45.0) / 1080
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("spin, distance", [(0.9, 3.0), (0.9, 1.5), (0.9, 0.9), (0.9, 0.75), (0.9, 0.6), (0.9, 0.3), (0.0, 0.5), (0.0, 0.1)])
 def test_a_thousand_rays_of_a_fall_are_those_of_kerr_and_schild(renderer: Renderer, spin: float, distance: float) -> None:
