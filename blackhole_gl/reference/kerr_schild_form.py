@@ -262,7 +262,8 @@ class KerrSchildSystem:
         momentum = np.cross(x.T, p.T).T
         momentum[2] = sin * photons.l_over_sin
         state = self._state(x / distance, 1.0 / distance, momentum, p, photons.energy, chart)
-        state[TIME] = chart * (distance + self.time_lead(r))
+        lead = self.time_lead(r) if r > self.r_plus else 0.0  # inside there is no Boyer-Lindquist time: the camera's is that of the ingoing coordinates
+        state[TIME] = chart * (distance + lead)
         return state
 
     def start_at_infinity(self, place: Place, screen: Float[Array, "N 2"]) -> Float[Array, "rows N"]:

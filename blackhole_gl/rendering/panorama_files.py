@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache, partial
 from pathlib import Path
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from ..scene import files
 from ..scene.schema import SceneError
-from . import stamps
+from . import radiance_hdr, stamps
 from .picture_files import FORMATS, MOST_ASIDE, MOST_PIXELS
 from .sampling import between, halved, packed
 from .sky_cube import on_face
@@ -25,11 +26,18 @@ Array = np.ndarray
 
 MOST_BYTES = 256 << 20
 ALLOWED = (
-    "a PNG, JPEG, WebP or BMP file or a NumPy array .npy (rows, columns, 1, 3 or 4), of at most 256 MiB, 16384 pixels a side and 67 million in all, "
-    "twice as wide as high, or of six square faces: 6:1, 1:6 or 3:2 (right, left, up, down, front, back), or a cross 4:3 or 3:4"
+    "a PNG, JPEG, WebP, BMP or Radiance .hdr file or a NumPy array .npy (rows, columns, 1, 3 or 4), of at most 256 MiB, 16384 pixels a side and 67 million in "
+    "all, twice as wide as high, or of six square faces: 6:1, 1:6 or 3:2 (right, left, up, down, front, back), or a cross 4:3 or 3:4; or one of six square "
+    "files whose names end in right, left, up, down, front and back (or px, nx, py, ny, pz, nz; posx, …), in one folder"
 )
 INNER = 7.0 / 8.0
 """Of a tile is the face; the rest goes on beyond its edges, so that no level is torn there."""
+
+_FACES = (
+    ("right", "left", "up", "down", "front", "back"), ("right", "left", "top", "bottom", "front", "back"),
+    ("posx", "negx", "posy", "negy", "posz", "negz"), ("px", "nx", "py", "ny", "pz", "nz"),
+)  # fmt: skip
+"""What the names of six files may end in."""
 
 LEVELS = 7
 _LEAST_TILE, _MOST_TILE = 512, 1152
@@ -48,7 +56,9 @@ def stamp(key: str, value: str) -> Stamp:
     """
     path = files.located(key, value)
     try:
-        return stamps.stamp(path, MOST_BYTES)
+        found = stamps.stamp(path, MOST_BYTES)
+        faces = [stamps.stamp(face, MOST_BYTES).modified_ns for face in face_files(path)]
+        return replace(found, modified_ns=max(faces)) if faces else found
     except Unusable as error:
         raise _error(key, path, str(error)) from None
 
@@ -72,11 +82,45 @@ def _error(key: str, path: Path, reason: str) -> SceneError:
 @lru_cache(maxsize=2)
 def _read(stamp: Stamp) -> tuple[Array, ...] | str:
     try:
-        data = stamps.content(stamp.path, MOST_BYTES)
-        light = _array(data) if stamp.path.suffix.lower() == ".npy" else _picture(data)
-        return _levels(*_seen(light))
+        paths = face_files(stamp.path)
+        return _levels(*_seen(_stacked([_light(path) for path in paths]) if paths else _light(stamp.path)))
     except Unusable as error:
         return str(error)
+
+
+def face_files(path: Path) -> list[Path]:
+    """The six files, right, left, up, down, front, back, of which `path` is one; none where it is not, or one of them is not there."""
+    for names in _FACES:
+        for name in names:
+            before = path.stem[: len(path.stem) - len(name)]
+            if path.stem.lower().endswith(name):
+                found = [path.with_name(f"{before}{other}{path.suffix}") for other in _cased(names, path.stem[len(before) :])]
+                if all(one.is_file() for one in found):
+                    return found
+    return []
+
+
+def _cased(names: tuple[str, ...], like: str) -> list[str]:
+    """`names` in capitals, with a capital, or in small letters, as `like` is."""
+    return [name.upper() if like.isupper() else name.capitalize() if like[0].isupper() else name for name in names]
+
+
+def _stacked(faces: list[Array]) -> Array:
+    """Six faces, one below the other."""
+    sides = {side for face in faces for side in face.shape[:2]}
+    if len(sides) != 1:
+        raise Unusable(f"its six files have sides of {', '.join(map(str, sorted(sides)))} pixels, and have to be square and alike")
+    return np.concatenate(faces)
+
+
+def _light(path: Path) -> Array:
+    """Linear light (rows, columns, 3) of the file at `path`."""
+    data = stamps.content(path, MOST_BYTES)
+    kind = path.suffix.lower()
+    if kind == ".hdr":
+        _refuse_size(*radiance_hdr.size(data))
+        return np.clip(radiance_hdr.light(data), 0.0, _BRIGHTEST)
+    return _array(data) if kind == ".npy" else _picture(data)
 
 
 def _array(data: bytes) -> Array:

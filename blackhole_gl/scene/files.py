@@ -14,7 +14,7 @@ ASSET = "asset:"
 PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 """What the names of pictures end in. A file parameter with no other endings is a picture, which shaders get as a texture."""
 
-PANORAMAS = (*PICTURES, ".npy")
+PANORAMAS = (*PICTURES, ".hdr", ".npy")
 """What the names of panoramas end in. A file parameter with these endings is one, which shaders get as the tiles of a cube."""
 
 MESHES = (".obj", ".gltf", ".glb", ".stl", ".ply")

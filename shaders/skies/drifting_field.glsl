@@ -34,6 +34,10 @@ range = [-20.0, 20.0]
 unit = "×"
 help = "How fast it drifts through the noise besides: as many times (0.005, 0.003, 0) a time of r_s/c."
 
+[parameters.frequency_shift]
+default = false
+help = "Shift its brightness (as the fourth power) by the observer's place and motion, and its colours as those of light from 6500 K. As published it does not."
+
 [numbers.drifting_field_turn]
 make = "blackhole_gl.rendering.drifting_field:turn"
 of = ["time", "sky.drifting_field.turn_rate"]
@@ -51,6 +55,7 @@ type = "vec4"
 ---*/
 #include "common/noise.glsl"
 #include "common/rotation.glsl"
+#include "common/shifted_light.glsl"
 
 const vec3 FIELD_COLOUR = vec3(0.9, 0.95, 1.0);
 const float FIELD_FINE = 0.15, FIELD_WIDE = 0.5; // side of a footprint over the noise's features, between which specks give way to their mean
@@ -84,5 +89,9 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
     float few = min(span * (1.0 / 0.3), 1.0);
     float mean = 0.0955 * span * span * few * (2.0 - few); // of the specks; within a tenth of that of twelve million places, at every threshold
     float haze = smoothstep(FIELD_FINE, FIELD_WIDE, sky_drifting_field_scale * sqrt(max(dot(right, right), dot(up, up))));
-    return mix(speck * speck, mean, haze) * sky_drifting_field_brightness * FIELD_COLOUR;
+    vec3 light = mix(speck * speck, mean, haze) * sky_drifting_field_brightness * FIELD_COLOUR;
+#if SKY_DRIFTING_FIELD_FREQUENCY_SHIFT
+    light = shifted_light(light, energy);
+#endif
+    return light;
 }

@@ -7,8 +7,8 @@ rank = 25
 
 [parameters.file]
 default = ""
-suffixes = [".png", ".jpg", ".jpeg", ".webp", ".bmp", ".npy"]
-help = "PNG (8 or 16 bits), JPEG, WebP, BMP or a NumPy array of light; twice as wide as high, or six squares: a row, a column, two rows of three, or a cross."
+suffixes = [".png", ".jpg", ".jpeg", ".webp", ".bmp", ".hdr", ".npy"]
+help = "PNG (8 or 16 bits), JPEG, WebP, BMP, Radiance .hdr or a NumPy array of light; twice as wide as high, or six squares: a row, a column, two rows of three, a cross, or six files (…_right, …_left, …_up, …_down, …_front, …_back), of which one is named."
 
 [parameters.brightness]
 default = 1.0
@@ -43,7 +43,7 @@ make = "blackhole_gl.rendering.sky_attitude:attitude"
 of = ["sky.image.yaw_deg", "sky.image.pitch_deg", "sky.image.roll_deg"]
 type = "vec4"
 ---*/
-#include "common/colour.glsl"
+#include "common/shifted_light.glsl"
 #include "common/rotation.glsl"
 #include "common/sky_cube.glsl"
 
@@ -51,7 +51,6 @@ uniform sampler2D sky_image_file; // blackhole_gl/rendering/panorama_files.py: s
 
 const float IMAGE_TAPS = 8.0;    // a footprint longer than so many times its width is widened
 const float IMAGE_LEVELS = 6.0;  // the coarsest
-const float IMAGE_KELVIN = 6500.0;
 
 vec3 image_at(vec3 direction, float level) {
     SkyPlace at = sky_place(direction);
@@ -81,8 +80,7 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
     } while (k < count);
     vec3 light = sum / count * sky_image_brightness;
 #if SKY_IMAGE_FREQUENCY_SHIFT
-    float boost = energy * energy;
-    light *= blackbody_colour(IMAGE_KELVIN * energy) / blackbody_colour(IMAGE_KELVIN) * (boost * boost);
+    light = shifted_light(light, energy);
 #endif
     return light;
 }

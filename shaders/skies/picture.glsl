@@ -54,6 +54,10 @@ default = 0.0
 range = [0.0, 1.0]
 help = "Blue light around it."
 
+[parameters.frequency_shift]
+default = true
+help = "Shift its brightness (as the fourth power) by the observer's place and motion, and its colours as those of light from 6500 K."
+
 [numbers.sky_picture_axes]
 make = "blackhole_gl.rendering.hung_picture:axes"
 of = ["sky.picture.hung", "sky.picture.azimuth_deg", "sky.picture.latitude_deg", "camera.azimuth_deg", "camera.inclination_deg"]
@@ -64,6 +68,7 @@ make = "blackhole_gl.rendering.hung_picture:half_width"
 of = ["sky.picture.width_deg"]
 ---*/
 #include "common/pictures.glsl"
+#include "common/shifted_light.glsl"
 
 // The picture lies in the plane at distance 1 along its axis: a direction d meets it at (d·right, d·up)/(d·ahead).
 
@@ -90,5 +95,9 @@ vec3 sky_radiance(vec3 direction, vec3 right, vec3 up, float energy) {
     vec2 cover = clamp((0.5 - abs(on - 0.5)) / pixel + 0.5, 0.0, 1.0);
     light *= ahead > LEAST_AHEAD ? cover.x * cover.y : 0.0;
     vec3 background = vec3(sky_picture_background_red, sky_picture_background_green, sky_picture_background_blue);
-    return light.rgb * sky_picture_brightness + (1.0 - light.a) * background;
+    vec3 seen = light.rgb * sky_picture_brightness + (1.0 - light.a) * background;
+#if SKY_PICTURE_FREQUENCY_SHIFT
+    seen = shifted_light(seen, energy);
+#endif
+    return seen;
 }

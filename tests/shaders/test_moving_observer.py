@@ -151,3 +151,17 @@ def test_the_critical_curve_is_the_edge_of_the_fates_for_moving_cameras(renderer
     assert most_off(in_pixels(found.curves[0].places), captured) < 0.2
     x, y = in_pixels(np.array([next(name.at for name in found.names if name.text == "centre of the hole")]))[0]
     assert captured[int(y), int(x)]
+
+
+@pytest.mark.parametrize("sky", ["picture", "drifting_field"])
+def test_skies_of_light_without_a_spectrum_are_shifted_where_they_are_to_be(renderer: Renderer, sky: str) -> None:
+    """D⁴ at β = 0.5, nearly ahead; to 5 %: colours of black bodies are fitted to 3 %, and the view is 4° high."""
+    values = {"rays.lensing": False, "disk.enabled": False, "sky.model": sky, "camera.velocity_forward": 0.5, "camera.fov_deg": 4.0, "camera.yaw_deg": 6.0}
+    values |= {f"sky.picture.background_{colour}": 0.1 for colour in ("red", "green", "blue")} | {"sky.picture.width_deg": 0.1}
+    values |= {"sky.drifting_field.threshold": 0.5}
+    light = []
+    for shifts in (False, True):
+        renderer.render(presets.load(["kerr"], {**values, f"sky.{sky}.frequency_shift": shifts}), 0.0, (64, 64))
+        light.append(float((renderer.radiance() @ np.array([0.2126, 0.7152, 0.0722])).sum()))
+    shift = 0.75**0.5 / (1.0 - 0.5 * np.cos(np.radians(6.0)))  # by the angle that the observer sees
+    assert light[0] > 0.0 and light[1] / light[0] == pytest.approx(shift**4, rel=0.05)

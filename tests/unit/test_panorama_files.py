@@ -189,3 +189,56 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(tmp_path: Path, name: st
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="sky.image.file: the panorama .*gone.png cannot be used: it cannot be read"):
         panorama_files.stamp(KEY, str(tmp_path / "gone.png"))
+
+
+def hdr(light: Array, *, encoded: bool, head: str = "") -> bytes:
+    """A Radiance picture, with runs of four literal bytes where it is `encoded`."""
+    largest = light.max(axis=-1)
+    exponent = np.where(largest > 0.0, np.floor(np.log2(np.maximum(largest, 1e-30))) + 1, -128).astype(int)
+    mantissa = np.clip(np.floor(light * 2.0 ** (8.0 - exponent[..., None])), 0, 255)
+    rows = np.concatenate([mantissa, np.clip(exponent + 128, 0, 255)[..., None]], axis=-1).astype(np.uint8)
+    height, width = light.shape[:2]
+    data = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n{head}\n-Y {height} +X {width}\n".encode()
+    for row in rows:
+        if not encoded:
+            data += row.tobytes()
+            continue
+        data += bytes((2, 2, width >> 8, width & 255))
+        for channel in row.T:
+            for k in range(0, width, 4):
+                piece = channel[k : k + 4].tobytes()
+                data += bytes((128 + len(piece), piece[0])) if len(set(piece)) == 1 else bytes((len(piece),)) + piece
+    return data
+
+
+@pytest.mark.parametrize("encoded", [False, True])
+def test_radiances_pictures_hold_the_light_to_their_eight_bits(tmp_path: Path, encoded: bool) -> None:
+    light = equirectangular(256)
+    bright = 300.0 * np.asarray(light)
+    given = ((light, ""), (2.0 * light, "EXPOSURE=2\n"))
+    found = [read(tmp_path, f"sky{k}.hdr", hdr(values, encoded=encoded, head=head)) for k, (values, head) in enumerate(given)]
+    assert off(found[0], 0) < 0.008 and off(found[1], 0) < 0.008  # mantissas of eight bits: 2⁻⁷ of the largest
+    assert np.abs(read(tmp_path, "bright.hdr", hdr(bright, encoded=encoded))[0].astype(float).max() / bright.max() - 1.0) < 0.01
+
+
+def test_damaged_pictures_of_radiances_are_refused_with_a_sentence(tmp_path: Path) -> None:
+    whole = hdr(equirectangular(64), encoded=True)
+    damaged = {
+        "cut off": whole[:-40], "no Radiance picture": b"P6\n" + whole, "not in RGBE": whole.replace(b"rle_rgbe", b"rle_xyze"),
+        "top left": whole.replace(b"-Y", b"+Y"), "exposure": whole.replace(b"FORMAT", b"EXPOSURE=-1\nFORMAT"),
+        "pixels": whole.replace(b"-Y 32 +X 64", b"-Y 99999 +X 99999"), "no length": whole.replace(bytes((2, 2, 0, 64)), bytes((2, 2, 0, 64, 0)), 1),
+    }  # fmt: skip
+    for reason, data in damaged.items():
+        with pytest.raises(SceneError, match=reason):
+            read(tmp_path, "bad.hdr", data)
+
+
+@pytest.mark.parametrize("names", [("right", "left", "up", "down", "front", "back"), ("PX", "NX", "PY", "NY", "PZ", "NZ")])
+def test_six_files_are_six_faces(tmp_path: Path, names: tuple[str, ...]) -> None:
+    for name, face in zip(names, faces(64)):
+        (tmp_path / f"sky_{name}.png").write_bytes(png(code(face, 255)))
+    data = (tmp_path / f"sky_{names[4]}.png").read_bytes()
+    assert off(read(tmp_path, f"sky_{names[4]}.png", data), 0) < 0.02
+    (tmp_path / f"sky_{names[0]}.png").write_bytes(png(code(faces(32)[0], 255)))
+    with pytest.raises(SceneError, match="have sides of 32, 64 pixels"):
+        read(tmp_path, f"sky_{names[1]}.png", (tmp_path / f"sky_{names[1]}.png").read_bytes())
