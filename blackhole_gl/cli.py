@@ -17,6 +17,7 @@ from .output.progress import Progress
 from .research import curve, lightcurve, polarization, profile, ring, trace, visibilities
 from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
+from .scene.schema import nearest
 
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux", "--keep-frames")  # options that no value follows
@@ -67,11 +68,23 @@ def _with_command(arguments: list[str]) -> list[str]:
             return [argument, *arguments[:place], *arguments[place + 1 :]]
         if not argument.startswith("-"):
             if not value_follows:
+                _refuse_mistyped(argument)
                 break  # the first of the presets: what follows is a preset, too
             value_follows = False
         else:
             value_follows = not value_follows and argument not in _FLAGS and "=" not in argument
     return ["view", *arguments]
+
+
+def _refuse_mistyped(word: str) -> None:
+    """Refuses what is like a command's name and no preset's: the options of a command would be told as unknown to view.
+
+    Raises:
+        ValueError: it is so.
+    """
+    meant = nearest(word, COMMANDS)
+    if meant and not Path(word).suffix and word not in (info.name for info in preset_files.available()):
+        raise ValueError(f"no command and no preset is called {word!r}{meant}")
 
 
 def view(
@@ -126,7 +139,7 @@ def render(
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
-        refuse_unwritable(out, (".png", ".exr", ".fits", ".npz"), "a PNG picture, or layers")
+        refuse_unwritable(out, (".png", ".exr", ".fits", ".npz"), "a picture")
     refuse_unmet(scene, set_)
     if out is not None:
         if linear and out.suffix.lower() not in ("", ".png"):

@@ -162,6 +162,12 @@ def test_options_stand_where_people_type_them(typed: str, meant: str) -> None:
     assert cli._with_command(typed.split()) == meant.split()
 
 
+@pytest.mark.parametrize("typed, meant", [("rendr kerr -o x.png", "render"), ("vidoe", "video"), ("preset", "presets"), ("kerr2", "kerr")])
+def test_a_mistyped_command_is_told_as_one(typed: str, meant: str) -> None:
+    with pytest.raises(ValueError, match=rf"no (command and no )?preset is called '{typed.split()[0]}'; did you mean {meant}\b"):
+        cli.run(typed.split())
+
+
 def test_a_reader_that_goes_is_no_mistake(tmp_path: Path) -> None:
     """As with `blackhole-gl presets | head -1`."""
     command = [sys.executable, "-m", "blackhole_gl", "presets"]
