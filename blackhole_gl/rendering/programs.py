@@ -258,7 +258,7 @@ class Programs:
             vertex, _, fragment = kept.decode().partition(_BETWEEN)
             return vertex, fragment
         vertex, fragment = (made.text for made in compose())
-        if _content(self.roots) == self._content:  # no file has changed meanwhile
+        if self._times() == self._seen:  # no file has changed meanwhile
             cache.keep("programs", key, f"{vertex}{_BETWEEN}{fragment}".encode())
         return vertex, fragment
 
