@@ -270,4 +270,4 @@ def _choice(item: Field, value: str, unfit: Mapping[str, str], picture: DrawPict
 
 def list_is_open() -> bool:
     """Whether a picker's list or another popup is open."""
-    return bool(imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value))
+    return imgui.is_popup_open("", imgui.PopupFlags_.any_popup.value)
