@@ -1,4 +1,4 @@
-"""The window that lists keys and mouse, made from the bindings."""
+"""The window that lists keys and mouse, made from the bindings, and says what words mean."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from ..output.files import write_whole
 from . import theme, tool_window
 from .keys import ACTIONS, Bindings, shown, template
 from .state import WindowState
+from .words import WORDS
 
 _WIDTH_EM = 46.0
 _MOUSE = (
@@ -51,6 +52,8 @@ def _contents(state: WindowState, bindings: Bindings, key_file: Path) -> None:
     _table("keys", [(shown(bindings[action.name]) or "no key", action.help) for action in ACTIONS])
     imgui.separator()
     _table("mouse", _MOUSE)
+    imgui.separator()
+    _table("words", tuple(WORDS.items()))
     imgui.separator()
     _file(state, key_file)
 

@@ -20,13 +20,13 @@ from .pickers import Pickers
 from .rows import columns, wrapped_tooltip
 from .state import WindowState
 from .thumbnails import Thumbnails
+from .words import WORDS
 
 _TITLES = {
     "hole": "Black hole", "source": "Real object", "camera": "Camera", "rays": "Light rays", "disk": "Disk", "polarization": "Polarization",
     "sky": "Sky", "post": "Image", "playback": "Playback",
 }  # fmt: skip
 _ART = ("Art", "What makes a picture and no physics names: as you like it.")
-_COST = "A flat frame, the unit of cost, is the same picture with light running straight."
 _OF_MOTION = frozenset(f"camera.{name}" for name in ("velocity_right", "velocity_up", "velocity_forward", "aberration", "doppler_colour", "beaming"))
 _OPEN_AT_START = ("hole", "camera", "disk")
 
@@ -60,7 +60,7 @@ class Panel:
             if shown := [item for item in items if _matches(item, wanted)]:
                 is_open = _section(section, shown, state, thumbnails, forced_open=bool(wanted))
                 if is_open and section == "rays":
-                    _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM, _COST)
+                    _line("Now: " + ("; ".join(reasons) or "…"), theme.DIM, f"Flat frame: {WORDS['flat frame']}")
         self._instances.draw(state, lambda item: _matches(item, wanted), lambda name, items: _table(name, items, state, thumbnails), forced_open=bool(wanted))
 
     def shown_fields(self, scene: Scene) -> list[Field]:
