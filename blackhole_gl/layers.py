@@ -13,7 +13,7 @@ import numpy as np
 from . import listed_rays
 from .measure.visibilities import SkyPicture
 from .output.files import write_whole
-from .physics import angular_size
+from .physics import angular_size, projection
 from .planning import plan
 from .rendering.frame import Renderer
 from .scene import Scene, presets
@@ -159,7 +159,9 @@ def _beside(layers: Layers) -> dict[str, np.ndarray]:
 
 
 def _world(scene: Scene, height: int, width: int) -> dict[str, Any]:
-    """Where pixels are about the picture's middle: on the sky where `scene` tells angles there, else in M."""
+    """Where pixels are about the picture's middle: on the sky where `scene` tells angles there, else in M; of no plane picture nothing."""
+    if not projection.is_perspective(scene.camera):
+        return {}
     if angular_size.is_told(scene):
         step = math.degrees(angular_size.picture_height_uas(scene.camera, scene.source) * angular_size.MICROARCSECOND) / height
         return _at_middle((height, width), "TAN", step, (0.0, 0.0))
@@ -168,12 +170,12 @@ def _world(scene: Scene, height: int, width: int) -> dict[str, Any]:
     return {**about, "CTYPE1": "ALPHA", "CTYPE2": "BETA", "CUNIT1": "", "CUNIT2": "", "CDELT1": step}
 
 
-def _at_middle(shape: tuple[int, ...], projection: str, step: float, place_deg: tuple[float, float]) -> dict[str, Any]:
+def _at_middle(shape: tuple[int, ...], plane: str, step: float, place_deg: tuple[float, float]) -> dict[str, Any]:
     """A header's coordinates on the sky, pixels of `step` degrees about `place_deg` in the middle: north up, and east to the left, as astronomers draw it."""
     height, width = shape
     return {
         "CRPIX1": 0.5 * (width + 1), "CRPIX2": 0.5 * (height + 1), "CRVAL1": place_deg[0], "CRVAL2": place_deg[1], "CDELT1": -step, "CDELT2": step,
-        "CTYPE1": f"RA---{projection}", "CTYPE2": f"DEC--{projection}", "CUNIT1": "deg", "CUNIT2": "deg",
+        "CTYPE1": f"RA---{plane}", "CTYPE2": f"DEC--{plane}", "CUNIT1": "deg", "CUNIT2": "deg",
     }  # fmt: skip
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..number_lists import NumberList
-from ..physics import angular_size
+from ..physics import angular_size, projection
 from ..rendering.frame import Renderer
 from ..rendering.metering import LUMINANCE
 from ..scene import Scene, SceneError
@@ -89,6 +89,8 @@ def sky_picture(renderer: Renderer, scene: Scene, time: float, size: tuple[int, 
     """
     if scene.post.view != "picture":
         raise SceneError("post.view", f"got {scene.post.view!r}; allowed is 'picture' here, as a view's colours are no brightness")
+    if not projection.is_perspective(scene.camera):
+        raise SceneError("camera.projection", f"got {scene.camera.projection}; the sky is told of a plane picture: allowed is {projection.PERSPECTIVE}")
     light = renderer.still_radiance(scene, time, size, samples).astype(float) @ LUMINANCE
     if not light.sum() > 0.0:
         raise SceneError("disk", "nothing shines in this picture, so that there is nothing to measure")

@@ -105,6 +105,12 @@ def test_a_scenes_picture_has_its_angles_and_the_roll_is_the_position_angle(rend
     assert np.abs(found - upright).max() < 2e-3 < np.abs(upright[1:3]).min()
 
 
+def test_a_picture_of_the_whole_sky_is_no_plane_one(renderer: Renderer) -> None:
+    for key, value in (("camera.projection", "equirectangular"), ("post.view", "order")):
+        with pytest.raises(ValueError, match=f"{key}: got"):
+            visibilities.sky_picture(renderer, presets.load(["kerr"], {key: value}), 0.0, (64, 32))
+
+
 def test_fits_is_such_as_ehtim_reads(renderer: Renderer, measured: SkyPicture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its reader takes the primary image, NAXIS1 and 2, CDELT1 and 2 in degrees, OBSRA and OBSDEC, FREQ, MJD, OBJECT, and BUNIT, and turns rows upside down."""
     monkeypatch.setattr(research, "renderer_by", lambda backend: renderer)
