@@ -42,6 +42,7 @@ out vec4 radiance;
 #endif
 
 #include "common/matter.glsl"
+#include "common/look_back.glsl"
 #if MEETINGS
 #instances
 #slots thing
@@ -50,7 +51,6 @@ out vec4 radiance;
 const float BRIGHTEST = 6.0e4;          // what a half float holds
 const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
 
-#include "common/look_back.glsl"
 #slots disk_layer
 
 // Brightness of light that leaves the matter at its angle to the plane's normal, over its mean; `g` is the whole frequency shift from there to infinity.
@@ -133,6 +133,9 @@ Light pass_order(Light light, Hits hits, Crossing crossing, int n, DiskLight sen
 Light meeting_light(Hits hits, int k, Sight sight) {
     Light own = Light(vec3(0.0), vec3(1.0));
     Meeting met = hits.meeting[k];
+#if RAYS_LIGHT_TRAVEL
+    look_back(met.delay);
+#endif
 #each thing : if (met.kind == THING_$KEY) own = thing_$key_light(met.index, sight);
     return own;
 }

@@ -34,6 +34,7 @@
 #include "common/curve.glsl"
 #include "common/hit_map_read.glsl"
 #include "common/matter.glsl"
+#include "common/look_back.glsl"
 #instances
 #slots thing
 #slots medium
@@ -164,6 +165,9 @@ void main() {
 
     Orbit orbit = ray_orbit(start);
     State s = ray_init(start, orbit, hits);
+#if RAYS_LIGHT_TRAVEL && !FROM_CAMERA
+    s = ray_delayed(s, met.delay);
+#endif
     Here here = here_at(orbit, s, first, end, left, ENDS_LIT, vec3(0.0));
     bool over = !any;
     int surfaces = 0;  // of media that it leaves; whether it goes into the one that it begins at is rounding

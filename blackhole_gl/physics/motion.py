@@ -34,6 +34,7 @@ class Motion:
         velocity: dx/dt of the centre, float64 (3,); on a circle that is gone round faster than light can, of a slower one: `outruns_light`.
         spin: angular velocity about the centre, float64 (3,), rad c/r_s.
         attitude: unit quaternion (x, y, z, w), float64 (4,), that turns the instance's own axes to the world's.
+        orbit_rate: of its circle about the hole, rad c/r_s; 0 where it is on none.
     """
 
     centre: Float[np.ndarray, " 3"]
@@ -41,6 +42,7 @@ class Motion:
     velocity: Float[np.ndarray, " 3"]
     spin: Float[np.ndarray, " 3"]
     attitude: Float[np.ndarray, " 4"]
+    orbit_rate: float = 0.0
 
 
 _STILL = np.zeros(3)
@@ -58,7 +60,8 @@ class Mover:
 
 
 def rows(scene: Scene, slot: str, where: SpaceTime, time: float) -> Float[np.ndarray, "instances 4 4"]:
-    """The motion at `time` (r_s/c) of the instances of `slot`, ``thing`` or ``medium``, in the scene's order: centre and reach, velocity, spin, attitude."""
+    """The motion at `time` (r_s/c) of the instances of `slot`, ``thing`` or ``medium``, in the scene's order: centre and reach, velocity and
+    the circle's rate, spin, attitude."""
     standing, moving = _parted(met.named(scene, slot), tuple(met.kinds(scene, slot)))
     found = standing.copy()
     for mover in moving:
@@ -86,7 +89,7 @@ def _parted(named: Instances, kinds: tuple[PlugIn, ...]) -> tuple[Float[np.ndarr
 
 
 def _row(motion: Motion) -> Float[np.ndarray, "4 4"]:
-    return np.array([(*motion.centre, motion.reach), (*motion.velocity, 0.0), (*motion.spin, 0.0), motion.attitude])
+    return np.array([(*motion.centre, motion.reach), (*motion.velocity, motion.orbit_rate), (*motion.spin, 0.0), motion.attitude])
 
 
 def of(instance: Instance, traits: MetTraits, where: SpaceTime, time: float) -> Motion:
@@ -96,7 +99,8 @@ def of(instance: Instance, traits: MetTraits, where: SpaceTime, time: float) -> 
     centre, velocity = (_at_rest(instance), _STILL) if instance.values["path"] == "fixed" else _on_circle(instance, where, time)
     velocity = _possible_share(centre, velocity, where) * velocity
     axis, attitude = _attitude(instance, time)
-    return Motion(centre, met.extent(instance, traits), velocity, _number(instance, "turn_rate") * axis, attitude)
+    rate = 0.0 if instance.values["path"] == "fixed" else orbit_rate(instance, where)
+    return Motion(centre, met.extent(instance, traits), velocity, _number(instance, "turn_rate") * axis, attitude, rate)
 
 
 def _stands(instance: Instance, traits: MetTraits) -> bool:

@@ -61,9 +61,10 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     model, where = ray_model(scene), space_time(scene)
     orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
     meetings = _meetings(scene)
-    if scene.rays.light_travel and meetings == 2:
-        orders = min(orders, 2)  # GL 3.3 has no room for the times of more
     reasons += _why_orders(scene, orders, keep_crossings)
+    if scene.rays.light_travel and meetings == 2 and orders > 2:
+        orders = 2
+        reasons.append("2 orders: where light takes its time there is no room for the times of a third beside those of media")
     integrator = control = None
     stretch, max_steps = 1.0, 1
     if model.traits.kind != "closed":
@@ -315,7 +316,9 @@ def _march_bound(scene: Scene, model: PlugIn) -> float:
 
 def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
     """`Plan.reach_steps`. Neighbours have to take steps of like length, and things to be bound to a place beside the hole."""
-    if met.is_empty(scene) or control is None or control.traits.adapts or math.isinf(scene.camera.distance) or not projection.is_perspective(scene.camera):
+    if scene.rays.light_travel or met.is_empty(scene) or control is None or control.traits.adapts:
+        return 0
+    if math.isinf(scene.camera.distance) or not projection.is_perspective(scene.camera):
         return 0
     if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
         return 0

@@ -49,6 +49,7 @@ class HitArrays:
         met: int (…, meetings, 3): (kind, instance, crossings before) of what the ray meets, kinds numbered as in `instances.used`; −1 for none.
         met_place: float32 (…, meetings, 3): where, in r_s in the world; zero without.
         met_rates: float32 (…, meetings, 4): the ray's momentum there, n_rate and w_rate of shaders/common/hits.glsl. All None where there is nothing to meet.
+        met_delay: float32 (…, meetings): as `delay`; 0 without; None where no times are kept.
     """
 
     fate: Int[Array, "*rays"]
@@ -62,6 +63,7 @@ class HitArrays:
     met: Int[Array, "*rays meetings 3"] | None = None
     met_place: Float[Array, "*rays meetings 3"] | None = None
     met_rates: Float[Array, "*rays meetings 4"] | None = None
+    met_delay: Float[Array, "*rays meetings"] | None = None
 
     @property
     def momenta(self) -> Float[Array, "*rays 3 2"]:
@@ -96,7 +98,9 @@ def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: i
     inbound = (kept[0][..., 3, None].astype(np.int32) >> np.arange(MOST_CROSSINGS) & 1) == 1
     found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing, inbound)
     if times:
-        found = replace(found, delay=np.where(np.any(crossing != 0.0, axis=-1), texels[plane + 2 * meetings][..., :3], np.float32(np.nan)))
+        kept_times = texels[plane + 2 * meetings]
+        found = replace(found, delay=np.where(np.any(crossing != 0.0, axis=-1), kept_times[..., :3], np.float32(np.nan)))
+        found = replace(found, met_delay=kept_times[..., [3, 2]][..., :meetings] if meetings else None)
     if not meetings:
         return found
     places = np.stack(texels[plane : plane + 2 * meetings : 2], axis=-2)

@@ -28,6 +28,9 @@ options, a picture by its layer in the array of pictures and a mesh by the first
 _MOTION = ("bound", "velocity", "spin", "attitude")
 """A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
 
+_EARLIER = {"bound": ("bound", "velocity"), "velocity": ("bound", "velocity"), "attitude": ("attitude", "spin")}
+"""What was another when the light left that is seen (shaders/common/earlier.glsl), and what that follows from."""
+
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
     """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind; the
@@ -72,7 +75,12 @@ def _accessors(kind: PlugIn, held: str) -> list[str]:
     def texel(place: int) -> str:
         return f"{held}{place}" if held else _fetch(name, place, "i")
 
-    lines = [f"#define {name}_{word}(i) {texel(place)}" for place, word in enumerate(_motion_names(kind))]
+    now = {word: texel(place) for place, word in enumerate(_motion_names(kind))}
+    lines = [f"#define {name}_{word}(i) {text}" for word, text in now.items()]
+    if kind.traits.moves:
+        then = {word: f"earlier_{word}({now[first]}, {now[second]})" for word, (first, second) in _EARLIER.items()}
+        earlier = [f"#define {name}_{word}(i) {then.get(word, text)}" for word, text in now.items()]
+        lines = ["#if RAYS_LIGHT_TRAVEL", *earlier, "#else", *lines, "#endif"]
     lines.append(f"#define {name}_centre(i) {name}_bound(i).xyz")
     for item, place in _places(kind)[0]:
         value = f"{texel(place // 4)}.{'xyzw'[place % 4 : place % 4 + _width(item)]}"
@@ -150,7 +158,8 @@ class InstanceTables:
             files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
             kinds = used(plan.scene)
             rows = [_rows(kind, plan, time, files) for kind in kinds]
-            nodes = _nodes([table[:, 0] for table in rows], [_moving(kind, plan, files) for kind in kinds])
+            bounds = [_swept(table) if plan.times and kind.traits.moves else table[:, 0] for kind, table in zip(kinds, rows)]
+            nodes = _nodes(bounds, [_moving(kind, plan, files) for kind in kinds])
             tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)}
             tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": nodes}
             if found:
@@ -251,6 +260,13 @@ def _rows(kind: PlugIn, plan: Plan, time: float, files: FrozenMap[str, int]) -> 
     rows, texels = values.copy(), len(_motion_names(kind))
     rows[:, :texels] = motion.rows(plan.scene, kind.slot, plan.space_time, time)[own, :texels]
     return rows
+
+
+def _swept(rows: np.ndarray) -> np.ndarray:
+    """Spheres (instances, 4) that hold each instance wherever on its circle it is seen, from its rows."""
+    bound, circles = rows[:, 0], rows[:, 1, 3:] != 0.0
+    about_hole = np.concatenate([np.zeros((len(rows), 3)), (np.linalg.norm(bound[:, :3], axis=1) + bound[:, 3])[:, None]], axis=1)
+    return np.where(circles & (bound[:, 3:] > 0.0), about_hole, bound).astype(np.float32)
 
 
 def _moving(kind: PlugIn, plan: Plan, files: FrozenMap[str, int]) -> np.ndarray:

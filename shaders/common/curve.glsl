@@ -9,6 +9,9 @@ struct Path {
     vec4 place;  // homogeneous, before the twist
     vec4 rate;
     vec2 twist;  // about the spin axis, and its rate
+#if RAYS_LIGHT_TRAVEL
+    vec2 delay;  // q times the time of light from here to the camera, which is finite far out, too; and its rate
+#endif
 };
 
 struct Curve {
@@ -37,6 +40,18 @@ vec3 path_point(Path path) {
     return place.xyz / place.w;
 }
 
+#if RAYS_LIGHT_TRAVEL
+// Of light from there to the camera, r_s/c.
+float path_delay(Path path) {
+    return path.delay.x / path.place.w;
+}
+
+// And by the parameter of its rates.
+float path_delay_rate(Path path) {
+    return (path.delay.y - path_delay(path) * path.rate.w) / path.place.w;
+}
+#endif
+
 // The curve at t in 0…1; its rates are by the curve's own parameter.
 Path curve_path(Curve curve, float t) {
     vec4 weights = hermite_weights(t), slopes = hermite_slopes(t);
@@ -45,7 +60,9 @@ Path curve_path(Curve curve, float t) {
         weights.x * a.place + weights.z * b.place + curve.h * (weights.y * a.rate + weights.w * b.rate),
         slopes.x * a.place + slopes.z * b.place + curve.h * (slopes.y * a.rate + slopes.w * b.rate),
         vec2(weights.x * a.twist.x + weights.z * b.twist.x + curve.h * (weights.y * a.twist.y + weights.w * b.twist.y),
-             slopes.x * a.twist.x + slopes.z * b.twist.x + curve.h * (slopes.y * a.twist.y + slopes.w * b.twist.y)));
+             slopes.x * a.twist.x + slopes.z * b.twist.x + curve.h * (slopes.y * a.twist.y + slopes.w * b.twist.y))
+        AND_TIME(vec2(weights.x * a.delay.x + weights.z * b.delay.x + curve.h * (weights.y * a.delay.y + weights.w * b.delay.y),
+                      slopes.x * a.delay.x + slopes.z * b.delay.x + curve.h * (slopes.y * a.delay.y + slopes.w * b.delay.y))));
 }
 
 // How fast it moves, r_s by the parameter of its rates.
@@ -121,5 +138,5 @@ Path way_path(Way way, float t) {
     Curve half_way = Curve(way.a, way.middle, 0.5 * way.h);
     if (later) half_way = Curve(way.middle, way.b, 0.5 * way.h);
     Path found = curve_path(half_way, later ? 2.0 * t - 1.0 : 2.0 * t);
-    return Path(found.place, 2.0 * found.rate, vec2(found.twist.x, 2.0 * found.twist.y));
+    return Path(found.place, 2.0 * found.rate, vec2(found.twist.x, 2.0 * found.twist.y) AND_TIME(vec2(found.delay.x, 2.0 * found.delay.y)));
 }

@@ -1,10 +1,9 @@
 // When the light that is seen left what it shows. With rays.light_travel the clock of the disk's and the media's patterns is set back for each crossing or place by
 // `look_back`; what is included behind this file then reads the patterns of that time under the names of those of scene time.
 
-#if RAYS_LIGHT_TRAVEL
-#include "common/rotation.glsl"
+#include "common/earlier.glsl"
 
-float seen_delay = 0.0;  // r_s/c before scene time
+#if RAYS_LIGHT_TRAVEL
 vec4 seen_phase, seen_seed;
 
 // (age, seed) of a pattern so much earlier: in an earlier life, perhaps, which has a seed of its own (blackhole_gl/physics/shear.py).

@@ -290,15 +290,21 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
         there = march_step(orbit, a, way.h * t);
         Path path = ray_path(orbit, there);
         vec3 velocity = path_velocity(path);
+#if RAYS_LIGHT_TRAVEL
+        velocity -= earlier_by_delay(found.kind, found.index, ray_delay(there)) * ray_delay_rate(orbit, there);
+#endif
         float speed = length(velocity);
         slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
     }
+#if RAYS_LIGHT_TRAVEL
+    there = ray_delayed(there, slip * ray_delay_rate(orbit, there));
+#endif
 #ifdef RAY_FIRST_ORDER
     there = state_step(there, slip, ray_rhs(orbit, there));
 #else
     there = state_drift(there, slip);
 #endif
-    meet(found, path_point(ray_path(orbit, there)), ray_momentum(orbit, there), hits);
+    meet(found, path_point(ray_path(orbit, there)), ray_momentum(orbit, there) AND_DELAY(there), hits);
 }
 
 // All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.

@@ -48,9 +48,17 @@ float inner_radius() {
     return 0.5 * hole_w_factors.x * min(hole_horizon_size, 1.0);
 }
 
+// What moves and changes is, from here on, as it was when light left so late a place.
+#if RAYS_LIGHT_TRAVEL
+#define LOOK_BACK(delay) look_back(delay)
+#else
+#define LOOK_BACK(delay)
+#endif
+
 // `end`: the opaque thing that the ray ends on; far away where there is none. Where it is not `lit`, `loses` is what it loses on the piece before.
 Here here_at(Orbit orbit, State s, Sight first, vec3 end, vec3 left, const bool lit, vec3 loses) {
     Path path = ray_path(orbit, s);
+    LOOK_BACK(path_delay(path));
     Here here;
     here.x = path_point(path);
     vec3 velocity = path_velocity(path);
@@ -138,6 +146,7 @@ void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int 
         State next = march_step(orbit, s, h);
         Path path = ray_path(orbit, next);
         vec3 x = path_point(path), velocity = path_velocity(path);
+        LOOK_BACK(path_delay(path));
         vec2 room = room_at(x);
         float chord = distance(x, here.x);
         bool unsure = farther > close && here.edge + room.x < 1.05 * chord;
@@ -175,7 +184,9 @@ Surface surface_ahead(Orbit orbit, State s, Here here) {
     float clear = 0.0, before = here.edge, after = 0.0;
     for (int k = 0; k < MOST_TRIES; ++k) {
         float edge;
-        bool same = within_at(path_point(way_path(way, t / whole)), edge) == here.within;
+        Path at = way_path(way, t / whole);
+        LOOK_BACK(path_delay(at));
+        bool same = within_at(path_point(at), edge) == here.within;
         clear = same ? t : clear;
         before = same ? edge : before;
         high = same ? high : t;

@@ -84,10 +84,46 @@ float traced_part(int kind, int index, float size, vec3 x, vec3 y, out bool ente
     return part;
 }
 
-// The part of the piece at which the instance is first met, 0…1; 2: not at all.
-float met_part(int kind, int index, float size, vec3 x, vec3 y, out bool enters) {
+#if RAYS_LIGHT_TRAVEL
+vec3 centre_of(int kind, int index) {
+#each thing : if (kind_$key(kind)) return thing_$key_bound(index).xyz;
+#each medium : if (kind_$key(kind)) return medium_$key_bound(index).xyz;
+    return vec3(0.0);
+}
+
+// By how much the centre of an instance was elsewhere for each r_s/c that light left it earlier.
+vec3 earlier_by_delay(int kind, int index, float delay) {
+    const float APART = 0.05;
+    seen_delay = delay + APART;
+    vec3 before = centre_of(kind, index);
+    seen_delay = delay - APART;
+    vec3 after = centre_of(kind, index);
+    seen_delay = delay;
+    return (before - after) / (2.0 * APART);
+}
+
+// How far the way of an instance between two times bows out from the straight one, r_s.
+float circle_bow(int kind, int index, vec2 delays) {
+    seen_delay = delays.x;
+    vec3 from = centre_of(kind, index);
+    seen_delay = delays.y;
+    vec3 to = centre_of(kind, index);
+    seen_delay = 0.5 * (delays.x + delays.y);
+    return distance(centre_of(kind, index), 0.5 * (from + to));
+}
+#endif
+
+// The part of the piece at which the instance is first met, 0…1; 2: not at all. Where light takes its time the ends of the piece were passed at two times: what moves
+// is met where it was in between, which is as if it stood and the piece led farther.
+float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 delays), out bool enters) {
     float part = 2.0;
     enters = true;
+#if RAYS_LIGHT_TRAVEL
+    seen_delay = delays.y;
+    vec3 there = centre_of(kind, index);
+    seen_delay = delays.x;
+    y += centre_of(kind, index) - there;
+#endif
 #if MEETINGS_BY_DISTANCE
     if (tells_distance(kind)) part = traced_part(kind, index, size, x, y, enters);
 #endif
@@ -106,15 +142,15 @@ struct Found {
 const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
 
 // Of media only the first that is entered is kept: transfer.frag goes on from there, and finds the others and the ways out itself.
-void meet(Found found, vec3 place, Momentum momentum, inout Hits hits) {
+void meet(Found found, vec3 place, Momentum momentum AND_TIME(float delay), inout Hits hits) {
     bool known = false;
     for (int k = 0; k < MEETINGS; ++k) known = known || is_medium(hits.meeting[k].kind);
-    if (!is_medium(found.kind) || found.enters && !known) add_meeting(hits, found.kind, found.index, found.enters, place, momentum, is_opaque(found.kind));
+    if (!is_medium(found.kind) || found.enters && !known) add_meeting(hits, found.kind, found.index, found.enters, place, momentum AND_TIME(delay), is_opaque(found.kind));
 }
 
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
 // `stray`, the piece is too long for what it is near to, and nothing else is told.
-Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
+Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int first, out float allowed) {
     Found found = NOTHING_FOUND;
     Piece piece = piece_of(meeting_nodes, x, y, stray);
     int number = stray < 1e29 ? first : 0;
@@ -125,9 +161,13 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
         if (number > 0) {
             int kind = held(leaf) & 31, index = held(leaf) >> 5;
             float size = size_of(kind, index);
-            allowed = min(allowed, max(stray_allowed(size), rounding(x, y)));  // no finer than single precision
+            float own = max(stray_allowed(size), rounding(x, y));  // no finer than single precision
+#if RAYS_LIGHT_TRAVEL
+            own *= stray / (stray + circle_bow(kind, index, delays));
+#endif
+            allowed = min(allowed, own);
             bool enters;
-            float part = met_part(kind, index, size, x, y, enters);
+            float part = met_part(kind, index, size, x, y AND_TIME(delays), enters);
             if (part < found.at) found = Found(kind, index, part, size, enters);
             number = stray > allowed ? 0 : next_node(leaf, number, true);
         }
@@ -162,7 +202,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
         near = met && is_leaf(node) && meets_ball(piece, node);
-#if MEETINGS_BY_DISTANCE
+#if MEETINGS_BY_DISTANCE && !RAYS_LIGHT_TRAVEL
         int kind = held(node) & 31, index = held(node) >> 5;
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray.off + overstep(1.0, x);
 #endif
@@ -205,7 +245,10 @@ Found next_meeting(Way way, float from, float to, int first) {
         Path there = way_path(way, next);
         vec3 y = path_point(there);
         float stray = path_stray(here, there, next - t).off;
-        found = first_on_piece(x, y, stray, first, allowed);
+#if RAYS_LIGHT_TRAVEL
+        stray = max(stray, 1e-9);  // beside which the bows of circles are measured
+#endif
+        found = first_on_piece(x, y AND_TIME(vec2(path_delay(here), path_delay(there))), stray, first, allowed);
         if (stray > allowed) {
             found = NOTHING_FOUND;
             part = (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
@@ -255,6 +298,9 @@ float meeting_root(Way way, Found found) {
     for (int i = 0; i < 3; ++i) {
         Path here = way_path(way, t);
         vec3 velocity = path_velocity(here);
+#if RAYS_LIGHT_TRAVEL
+        velocity -= earlier_by_delay(found.kind, found.index, path_delay(here)) * path_delay_rate(here);  // as what was found sees it
+#endif
         float speed = length(velocity);
         t += beyond_surface(found, path_point(here), velocity / speed) / speed;
     }
@@ -263,9 +309,10 @@ float meeting_root(Way way, Found found) {
 
 // A ray that begins inside a medium, at a camera there, has gone into it where it begins.
 void meet_at_start(vec3 x, Momentum momentum, inout Hits hits) {
-#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true), x, momentum, hits);
+#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true), x, momentum AND_TIME(0.0), hits);
 }
 
+#if !RAYS_LIGHT_TRAVEL  // models of straight rays tell no times
 // All that is met on the straight line x + s v, v a unit vector, for 0 < s < s_end, in order. The line crosses the disk's plane at `s_crossing`, if at all, in
 // `point`. Returns whether the ray ends on something opaque.
 bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, inout Hits hits) {
@@ -296,3 +343,4 @@ bool meet_on_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, ino
     meet_at_start(x, momentum_at(x, v), hits);
     return meet_along_line(x, v, s_end, s_crossing, point, hits);
 }
+#endif

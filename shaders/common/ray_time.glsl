@@ -54,4 +54,9 @@ float time_rate(TimeConstants of, TimeEnd at) {
     float fall = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y), wide = 1.0 + a2 * w2;
     return of.energy * (wide * (wide - of.a_lambda * w2) / (fall * w2) + of.a_lambda - a2 + a2 * at.value.y * at.value.y);
 }
+
+// Path.delay of a place so late, with its rate: from infinity all light comes early.
+vec2 path_time_at(float w, float w_rate, float delay, float rate) {
+    return w > 0.0 ? 2.0 * vec2(w * delay, w * rate + w_rate * delay) : vec2(-1.0, 0.0);
+}
 #endif

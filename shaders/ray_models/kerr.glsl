@@ -156,6 +156,10 @@ float ray_delay_rate(Orbit orbit, State s) {
     return 0.5 * time_rate(time_constants(orbit), time_end(orbit, s));
 }
 
+vec2 path_time(Orbit orbit, State s) {
+    return path_time_at(s.w, s.w_rate, ray_delay(s), s.w > 0.0 ? ray_delay_rate(orbit, s) : 0.0);
+}
+
 State ray_delayed(State s, float delay) {
     s.time += 2.0 * delay;
     return s;
@@ -210,7 +214,7 @@ float ray_elevation(State s) {
 
 Path ray_path(Orbit orbit, State s) {
     vec2 factors = 1.0 - s.w * hole_w_factors;
-    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(whole_twist(s), orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)));
+    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(whole_twist(s), orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)) AND_TIME(path_time(orbit, s)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {

@@ -94,6 +94,10 @@ float ray_delay_rate(Orbit orbit, State s) {
     return 0.5 * time_rate(time_constants(orbit), time_end(orbit, s));
 }
 
+vec2 path_time(Orbit orbit, State s) {
+    return path_time_at(s.w, s.w_rate, ray_delay(s), s.w > 0.0 ? ray_delay_rate(orbit, s) : 0.0);
+}
+
 State ray_delayed(State s, float delay) {
     s.time += 2.0 * delay;
     return s;
@@ -133,7 +137,7 @@ float ray_elevation(State s) {
 
 Path ray_path(Orbit orbit, State s) {
     vec2 turn = cos_sin(s.angle);
-    return Path(vec4(turn.x * s.n + turn.y * s.aside, 2.0 * s.w), vec4(s.b * (turn.x * s.aside - turn.y * s.n), 2.0 * s.w_rate), vec2(0.0));
+    return Path(vec4(turn.x * s.n + turn.y * s.aside, 2.0 * s.w), vec4(s.b * (turn.x * s.aside - turn.y * s.n), 2.0 * s.w_rate), vec2(0.0) AND_TIME(path_time(orbit, s)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {
