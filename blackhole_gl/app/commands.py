@@ -224,6 +224,7 @@ COMMANDS: Mapping[str, Callable[[WindowState], None]] = {
     "values": flip("show_values"),
     "chart": flip("show_chart"),
     "line": flip("show_line"),
+    "light": flip("show_light"),
     "paths": flip("show_paths"),
     "sides": flip("show_sides"),
     "timeline": flip("show_timeline"),

@@ -96,6 +96,7 @@ ACTIONS: tuple[Action, ...] = (
     Action("overlay", ("O",), "Show or hide figures and compass"),
     Action("chart", ("C",), "Show or hide the live chart: error and cost of the methods on this view"),
     Action("line", ("B",), "Show or hide the profile of a line that the disk emits, of each order of image"),
+    Action("light", ("K",), "Show or hide the light curve: the light of the whole picture over a turn of what moves"),
     Action("paths", ("G",), "Show or hide the path view: a click on the picture shows that ray in space, step by step"),
     Action("sides", ("D",), "Divide the picture or not: another method or preset on the right, with the error and cost of both"),
     Action("timeline", ("T",), "Show or hide the flight: open one, play and scrub it, take keys from the view"),

@@ -78,6 +78,7 @@ class WindowState:
     show_overlay: bool = True
     show_chart: bool = False
     show_line: bool = False
+    show_light: bool = False
     show_values: bool = False
     show_paths: bool = False
     show_sides: bool = False

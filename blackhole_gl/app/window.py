@@ -48,6 +48,7 @@ from .file_dialog import FileDialog
 from .full_screen import FullScreen
 from .gesture import Editing, Gesture
 from .label_overlay import LabelOverlay
+from .light_plot import LightPlot
 from .line_plot import LinePlot
 from .live_chart import LiveChart
 from .mouse import Mouse
@@ -200,8 +201,8 @@ class Window:
         self._bar = bar.toolbar(self.failure.kept_from(self.draw_bar))
         self._picture_folder = picture_folder
         self._make_renderer = make_renderer
-        self.live_chart = LiveChart(make_renderer)
-        self.line_plot = LinePlot(make_renderer)
+        self.live_chart, self.line_plot, self.light_plot = LiveChart(make_renderer), LinePlot(make_renderer), LightPlot(make_renderer)
+        self._plots = self.live_chart, self.line_plot, self.light_plot
         self.path_view = PathView()
         self._mouse_values = MouseValues()
         self._labels = LabelOverlay()
@@ -255,7 +256,7 @@ class Window:
         params.callbacks.edges_toolbars = {hello_imgui.EdgeToolbarType.top: self._bar} if self.state.show_panel else {}
         imgui.get_style().font_scale_main = self.kept.text_size
         runner.work_by_keys(self.state.panel_keys, widgets.list_is_open())
-        by_view = any(part.busy(self.state) for part in (self.live_chart, self.line_plot, self.side_by_side))
+        by_view = any(part.busy(self.state) for part in (*self._plots, self.side_by_side))
         measuring = by_view or self.path_view.busy or self.picture_window.busy or self.recorder.busy
         busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
@@ -300,8 +301,8 @@ class Window:
         self.dialog.poll()
         self.picture_window.draw(state, self.side_by_side.right_side)
         help_window.draw(state, self.bindings, self.key_file)
-        self.live_chart.draw(state)
-        self.line_plot.draw(state)
+        for plot in self._plots:
+            plot.draw(state)
         timeline_window.draw(state)
         self.path_view.frame(state, (view.left, view.top), (view.width, view.height), view.area)
         self.side_by_side.frame(state, self.picture, (view.left, view.top), (view.width, view.height), foot)
@@ -326,8 +327,8 @@ class Window:
             return
         window = self._gl.detect_framebuffer()
         self._render(view.area, window)
-        self.live_chart.advance(self._gl, self.state, glfw.get_time())
-        self.line_plot.advance(self._gl, self.state, glfw.get_time())
+        for plot in self._plots:
+            plot.advance(self._gl, self.state, glfw.get_time())
         self.path_view.advance(self._gl, self.picture.renderer)
         self.picture_window.advance(self._gl, self.state)
         self._picking.advance(self._gl, self.state, self.picture)

@@ -681,6 +681,23 @@ def line_plot(hands: Hands) -> None:
     assert not hands.state.show_line and not plot.busy(hands.state) and not hands.state.render_error
 
 
+def light_plot(hands: Hands) -> None:
+    """K opens the plot, which fills while time runs and leaves the picture's own hit map alone; with delays it is another."""
+    hands.state.change({"playback.target_fps": 0.0, "disk.hot_spot": True, "sky.enabled": False})
+    hands.settle()
+    wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=60.0)
+    hands.press(Key.k)
+    plot, traces = hands.window.light_plot, hands.window.picture.renderer.hit_map.traces
+    wait(hands, lambda: plot.curve is not None and not plot.busy(hands.state), seconds=60.0)
+    assert hands.window.picture.renderer.hit_map.traces == traces
+    at_once = plot.curve.relative
+    hands.state.change({"rays.light_travel": True})
+    wait(hands, lambda: not plot.busy(hands.state), seconds=60.0)
+    assert abs(plot.curve.relative - at_once).max() > 0.02
+    hands.press(Key.k)
+    assert not hands.state.show_light and not plot.busy(hands.state) and not hands.state.render_error
+
+
 def path_view(hands: Hands) -> None:
     """G opens the view. A click on the picture shows the ray of its pixel, a drag only orbits; the same ray by another method comes beside it."""
     paths = hands.window.path_view.paths
@@ -931,6 +948,6 @@ def a_mistake_in_a_users_header_is_shown(hands: Hands) -> None:
 
 WITH_KINDS = (instances_are_made_edited_and_removed, a_colour_is_edited_in_one_row, a_mistake_in_a_users_header_is_shown)
 WITH_THE_REAL_RENDERER = (
-    real_picture, way_out_of_a_black_picture, shader_edited, live_chart, line_plot, path_view, side_by_side, sides_hide_nothing, preset_switches_never_freeze,
-    all_preset_switches_never_freeze,
+    real_picture, way_out_of_a_black_picture, shader_edited, live_chart, line_plot, light_plot, path_view, side_by_side, sides_hide_nothing,
+    preset_switches_never_freeze, all_preset_switches_never_freeze,
 )  # fmt: skip
