@@ -83,7 +83,7 @@ class LightPlot:
         else:
             how = "as it arrives" if self._view.rays.light_travel else "all at once: rays.light_travel is off"
             imgui.text_colored(theme.QUIET, f"{self.curve.relative.min():.2f} to {self.curve.relative.max():.2f} of the mean; {how}")
-        if not implot.begin_plot("##light", (-1.0, -1.0), implot.Flags_.no_mouse_text.value):
+        if not implot.begin_plot("##light", (-1.0, -1.0), implot.Flags_.no_mouse_text.value | implot.Flags_.no_legend.value):
             return
         implot.setup_axes("time within a turn, r_s/c", "light over its mean", implot.AxisFlags_.none.value, implot.AxisFlags_.auto_fit.value)
         implot.setup_axis_limits(implot.ImAxis_.x1.value, 0.0, self._turn, implot.Cond_.always.value)

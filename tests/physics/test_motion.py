@@ -87,7 +87,7 @@ def test_the_rows_of_a_scene_are_each_instance_in_its_place_whether_it_stands_or
     for time in (0.0, 3.5):
         for row, instance in zip(motion.rows(scene, "thing", where, time), scene.things.values(), strict=True):
             here = motion.of(instance, kinds[instance.kind].traits, where, time)
-            expected = (*here.centre, here.reach), (*here.velocity, 0.0), (*here.spin, 0.0), here.attitude
+            expected = (*here.centre, here.reach), (*here.velocity, here.orbit_rate), (*here.spin, 0.0), here.attitude
             np.testing.assert_array_equal(row, expected)
     assert [(mover.place, mover.name) for mover in motion.movers(scene, "thing")] == [(0, "moon_0"), (2, "moon_2")]
     moved = scene.with_values({"things.moon_1.x": 3.0})
