@@ -93,8 +93,8 @@ class Combination:
         return values
 
     def applied(self, scene: Scene, setting: float) -> Scene:
-        """`scene` traced by this method with `setting`, all orders of crossings kept."""
-        return scene.with_values({**self.values(setting), "rays.orders": 3})
+        """`scene` traced by this method with `setting`, all orders of crossings kept and no times of light, which not every model tells."""
+        return scene.with_values({**self.values(setting), "rays.orders": 3, "rays.light_travel": False})
 
 
 def sensible(scene: Scene, whole: bool = True) -> list[Combination]:

@@ -6,6 +6,7 @@ longer: neither compiles anything.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -27,6 +28,8 @@ options, a picture by its layer in the array of pictures and a mesh by the first
 
 _MOTION = ("bound", "velocity", "spin", "attitude")
 """A texel each: centre and reach, then as in `motion.Motion`. Of a kind that does not move there is the first alone."""
+
+_SPHERES_A_CIRCLE = 48
 
 _EARLIER = {"bound": ("bound", "velocity"), "velocity": ("bound", "velocity"), "attitude": ("attitude", "spin")}
 """What was another when the light left that is seen (shaders/common/earlier.glsl), and what that follows from."""
@@ -158,7 +161,7 @@ class InstanceTables:
             files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
             kinds = used(plan.scene)
             rows = [_rows(kind, plan, time, files) for kind in kinds]
-            bounds = [_swept(table) if plan.times and kind.traits.moves else table[:, 0] for kind, table in zip(kinds, rows)]
+            bounds = [_bounds(table, plan.times and kind.traits.moves) for kind, table in zip(kinds, rows)]
             nodes = _nodes(bounds, [_moving(kind, plan, files) for kind in kinds])
             tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)}
             tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": nodes}
@@ -193,14 +196,14 @@ def anything_moves(plan: Plan) -> bool:
     return any(motion.movers(plan.scene, slot) for slot in met.SLOTS)
 
 
-def _nodes(bounds: list[np.ndarray], moving: list[np.ndarray]) -> np.ndarray:
-    """The hierarchy's texels, from the bounding spheres (instances, 4) of each kind and which of them move. A leaf holds 32 times the instance's number,
+def _nodes(bounds: list[tuple[np.ndarray, np.ndarray]], moving: list[np.ndarray]) -> np.ndarray:
+    """The hierarchy's texels, from the `_bounds` of each kind and which of its instances move. A leaf holds 32 times the instance's number,
     and its kind's.
 
     What stands has a hierarchy of its own, which is kept: where one of a thousand moves, little is made anew.
     """
-    number = np.concatenate([32 * np.arange(len(own)) + kind for kind, own in enumerate(bounds)])
-    spheres, moves = np.concatenate(bounds), np.concatenate(moving)
+    number = np.concatenate([32 * own + kind for kind, (_, own) in enumerate(bounds)])
+    spheres, moves = np.concatenate([spheres for spheres, _ in bounds]), np.concatenate([some[own] for some, (_, own) in zip(moving, bounds)])
     there = spheres[:, 3] > 0.0  # not lamps that are not seen
     stands, moves = there & ~moves, there & moves
     standing = _tree(spheres[stands].tobytes(), number[stands].tobytes())
@@ -262,11 +265,21 @@ def _rows(kind: PlugIn, plan: Plan, time: float, files: FrozenMap[str, int]) -> 
     return rows
 
 
-def _swept(rows: np.ndarray) -> np.ndarray:
-    """Spheres (instances, 4) that hold each instance wherever on its circle it is seen, from its rows."""
-    bound, circles = rows[:, 0], rows[:, 1, 3:] != 0.0
-    about_hole = np.concatenate([np.zeros((len(rows), 3)), (np.linalg.norm(bound[:, :3], axis=1) + bound[:, 3])[:, None]], axis=1)
-    return np.where(circles & (bound[:, 3:] > 0.0), about_hole, bound).astype(np.float32)
+def _bounds(rows: np.ndarray, seen_late: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Spheres (K, 4) that hold the instances of a kind, from its rows, and which each holds, (K,). Where light takes its time, who is on a circle may be seen
+    anywhere on it: spheres all along the circle hold such a one."""
+    bound, own = rows[:, 0], np.arange(len(rows))
+    if not seen_late:
+        return bound, own
+    around = np.flatnonzero((rows[:, 1, 3] != 0.0) & (bound[:, 3] > 0.0))
+    centre, velocity = bound[around, None, :3].astype(float), rows[around, 1, None, :3].astype(float)
+    radius = np.linalg.norm(centre, axis=-1, keepdims=True)
+    across = velocity * (radius / np.maximum(np.linalg.norm(velocity, axis=-1, keepdims=True), 1e-30))
+    angle = 2.0 * np.pi * np.arange(_SPHERES_A_CIRCLE)[:, None] / _SPHERES_A_CIRCLE
+    reach = np.broadcast_to(bound[around, None, 3:] + radius * math.sin(math.pi / _SPHERES_A_CIRCLE), (len(around), _SPHERES_A_CIRCLE, 1))
+    circles = np.concatenate([np.cos(angle) * centre + np.sin(angle) * across, reach], axis=-1).reshape(-1, 4).astype(np.float32)
+    rest = np.setdiff1d(own, around)
+    return np.concatenate([bound[rest], circles]), np.concatenate([rest, np.repeat(around, _SPHERES_A_CIRCLE)])
 
 
 def _moving(kind: PlugIn, plan: Plan, files: FrozenMap[str, int]) -> np.ndarray:
