@@ -28,8 +28,8 @@ _TOLD = 8  # textures that a march fills: two samples of three, and where the ra
 
 
 def can_keep(plan: Plan) -> bool:
-    """Whether the scene's media are one alone that has a pattern."""
-    return len(plan.scene.media) == 1 and all(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))
+    """Whether the scene's media are one alone that has a pattern, the same at one time everywhere: samples keep no times of light."""
+    return not plan.times and len(plan.scene.media) == 1 and all(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))
 
 
 @dataclass(eq=False)
