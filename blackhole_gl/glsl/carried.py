@@ -1,4 +1,4 @@
-"""Numbers of the uniform blocks, carried to the fragment shader as flat inputs that the vertex shader fills.
+"""Numbers of the uniform blocks, and loose ones that a fragment shader declares, carried to the fragment shader as flat inputs that the vertex shader fills.
 
 They are the same for all pixels either way, but uniforms are dear on software renderers (docs/llvmpipe.md): a flat input costs a twentieth.
 """
@@ -13,6 +13,8 @@ from .live import Words
 
 MOST_INPUTS = 15
 """vec4 inputs of a fragment shader that every driver of GL 3.3 has room for (GL_MAX_VARYING_COMPONENTS is 60 at least)."""
+
+_NO_WORDS = Words(frozenset(), frozenset())
 
 _FLOATS = {"float": 1, "int": 1, "vec2": 2, "vec4": 4, "mat4": 16}
 
@@ -30,15 +32,16 @@ class Carried:
     vertex: str
 
 
-def carry(blocks: Sequence[Block], words: Words, own: frozenset[str] = frozenset()) -> Carried:
-    """The numbers of `blocks` that `words` name: those that are run as inputs as far as there is room; the fragment shader reads the rest from the blocks.
+def carry(blocks: Sequence[Block], words: Words, own: Words = _NO_WORDS) -> Carried:
+    """The numbers of `blocks` that `words` name, and the loose ones: those that are run as inputs as far as there is room; the fragment shader reads the rest itself.
 
     Args:
         words: of the fragment shader.
-        own: identifiers of the vertex shader, which reads its own numbers from the blocks.
+        own: of the vertex shader, which reads its own numbers from the blocks.
     """
     mentioned = {name: kind for block in blocks for name, kind in block.members if name in words.compiled}
-    used = sorted(((name, kind) for name, kind in mentioned.items() if name in words.run), key=lambda member: -_FLOATS[member[1]])
+    numbers = [*words.loose, *((name, kind) for name, kind in mentioned.items() if name in words.run)]
+    used = sorted(numbers, key=lambda member: -_FLOATS[member[1]])
     room, taken = 4 * MOST_INPUTS, 0
     defines, moves = [], []
     for name, kind in used:
@@ -50,11 +53,13 @@ def carry(blocks: Sequence[Block], words: Words, own: frozenset[str] = frozenset
         defines.append(f"#define {name} {_as_given(kind, columns)}")
         taken += size
     count = -(-taken // 4)
-    left_out = mentioned.keys() - {line.split()[1] for line in defines}
+    carried = {line.split()[1] for line in defines}
+    left_out = mentioned.keys() - carried
     kept = [block for block in blocks if any(name in left_out for name, _ in block.members)]
     fragment = [block.glsl for block in kept]
     fragment += [f"flat in vec4 carried_{k};" for k in range(count)] + defines
-    vertex = [block.glsl for block in blocks if any(name in words.run | own for name, _ in block.members)]
+    vertex = [block.glsl for block in blocks if any(name in words.run | own.run for name, _ in block.members)]
+    vertex += [f"uniform {kind} {name};" for name, kind in words.loose if name in carried and (name, kind) not in own.loose]
     vertex += [f"flat out vec4 carried_{k};" for k in range(count)] + ["void carry() {", *moves, "}"]
     return Carried("\n".join(fragment), "\n".join(vertex))
 

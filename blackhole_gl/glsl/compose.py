@@ -6,7 +6,8 @@ Directives, each alone on its line and never acted on inside a comment:
 ``#slot ray_model``                   the file of the plug-in chosen for a slot
 ``#slots disk_layer``                 the files of all plug-ins chosen for a slot
 ``#each disk_layer : f_$key(x);``     the line once for every plug-in chosen for a slot, ``$key`` and ``$KEY`` replaced
-``#blocks``                           the numbers that the host gives, those that the compiled text mentions
+``#blocks``                           the numbers that the host gives, those that the compiled text mentions;
+                                      a loose uniform among them is defined where it was declared
 ``#defines``                          the switches that the text mentions
 ``#instances``                        what reads the tables of the scene's things and media
 
@@ -18,14 +19,14 @@ from __future__ import annotations
 import os
 import re
 from collections import OrderedDict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TypeAlias
 
 from ..text_files import TextError, read_text
-from .live import Words, live_words, names, numbered_live_lines
+from .live import Words, live_words, loose_uniform, names, numbered_live_lines
 
 _DIRECTIVE = re.compile(r"^\s*#(include|slots|slot|each|blocks|defines|instances)\b\s*(.*)$")
 _CALLED = re.compile(r"\w*\$key\w*(?=\()")  # functions of a plug-in, in a line for each
@@ -132,14 +133,17 @@ def compose(
     words = gathered.words(tuple(used.items()))
     texts: list[str] = []
     places: list[tuple[str, int]] = []
+    moved: dict[str, str] = {}  # loose uniforms and what stands where they were declared
     for stretch in gathered.stretches:
-        texts += stretch.texts
+        texts += _with_moved(stretch.texts, moved) if moved else stretch.texts
         places += stretch.places
         match stretch.ends:
             case "defines":
                 given = [f"#define {name} {value}" for name, value in used.items()]
             case "blocks":
                 given = blocks(words).splitlines()
+                moved = {name: line for name, _ in words.loose for line in given if line.startswith(f"#define {name} ")}
+                given = [line for line in given if line not in moved.values()]
             case "instances":
                 given = instances.splitlines()
             case _:
@@ -149,6 +153,13 @@ def compose(
     if gathered.asked_of_users:
         gathered.refuse_missing(texts, places, used)
     return Composed("\n".join(texts) + "\n", tuple(places), used, words)
+
+
+def _with_moved(texts: Iterable[str], moved: Mapping[str, str]) -> Iterator[str]:
+    """`texts` with the declarations of `moved` uniforms replaced."""
+    for text in texts:
+        loose = loose_uniform(text) if text.startswith("uniform") else None
+        yield moved.get(loose[0], text) if loose else text
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ _DEFINE = re.compile(r"^\s*#\s*define\s+(\w+)[ \t]*(\S*)")
 _DEFINED = re.compile(r"\bdefined\s*\(?\s*(\w+)\s*\)?")
 _NAME = re.compile(r"\b[A-Za-z_]\w*\b")
 _FUNCTION = re.compile(r"^[A-Za-z]\w*(?:\[\w*\])?\s+(\w+)\s*\([^;{]*\)\s*\{")
+_LOOSE = re.compile(r"^uniform\s+(float|int|vec2|vec4)\s+(\w+)\s*;")
 _ARITHMETIC = (ast.Expression, ast.BoolOp, ast.UnaryOp, ast.BinOp, ast.Compare, ast.Constant, ast.boolop, ast.unaryop, ast.operator, ast.cmpop)
 
 
@@ -25,10 +26,12 @@ class Words:
     Attributes:
         compiled: of all that is compiled: what these name has to be declared.
         run: of these, less what stands in functions that are never called.
+        loose: (name, type) of the uniforms of one number or vector each that the text declares outside of any block.
     """
 
     compiled: frozenset[str]
     run: frozenset[str]
+    loose: tuple[tuple[str, str], ...] = ()
 
 
 def live_words(lines: Iterable[str], switches: Mapping[str, int]) -> Words:
@@ -39,7 +42,9 @@ def live_words(lines: Iterable[str], switches: Mapping[str, int]) -> Words:
     functions: dict[str, set[str]] = {}
     outside: set[str] = set()
     within: set[str] | None = None
+    loose: list[tuple[str, str]] = []
     for _, line in _compiled(lines, switches):
+        loose += [line.loose] if line.loose else []
         if line.function and within is None:
             within = functions.setdefault(line.function, set())
         (outside if within is None else within).update(line.names)
@@ -49,7 +54,12 @@ def live_words(lines: Iterable[str], switches: Mapping[str, int]) -> Words:
     run = outside | functions.pop("main", set())
     while called := run & functions.keys():
         run = run.union(*(functions.pop(name) for name in called))
-    return Words(frozenset(compiled), frozenset(run))
+    return Words(frozenset(compiled), frozenset(run), tuple(loose))
+
+
+def loose_uniform(line: str) -> tuple[str, str] | None:
+    """(name, type) where a line declares a uniform of one number or vector outside of any block."""
+    return _read(line).loose
 
 
 def names(line: str) -> frozenset[str]:
@@ -67,6 +77,7 @@ class _Line(NamedTuple):  # thousands are made at a start, in a third of the tim
         names: its identifiers.
         function: that whose head it is, or empty.
         ends: a function that is open ends here.
+        loose: what `loose_uniform` answers.
     """
 
     code: str
@@ -75,6 +86,7 @@ class _Line(NamedTuple):  # thousands are made at a start, in a third of the tim
     names: frozenset[str]
     function: str
     ends: bool
+    loose: tuple[str, str] | None
 
 
 @lru_cache(maxsize=1 << 14)
@@ -84,6 +96,7 @@ def _read(line: str) -> _Line:
     directive = code.lstrip().startswith("#")
     conditional, define = (_CONDITIONAL.match(code), _DEFINE.match(code)) if directive else (None, None)
     head = _FUNCTION.match(code) if code[:1].isalpha() else None
+    uniform = _LOOSE.match(code) if code.startswith("uniform") else None
     return _Line(
         code,
         (conditional[1], conditional[2]) if conditional else None,
@@ -91,6 +104,7 @@ def _read(line: str) -> _Line:
         frozenset(_NAME.findall(code)),
         head[1] if head else "",
         code.startswith("}") or head is not None and code.count("{") == code.count("}"),
+        (uniform[2], uniform[1]) if uniform else None,
     )
 
 

@@ -267,7 +267,7 @@ class Programs:
         blocks = uniforms.blocks()
         composed = partial(compose, self.roots, chosen=dict(structure.chosen), switches=switches, instances=structure.instances)
         fragment = composed(path, blocks=lambda words: carry(blocks, words).fragment)
-        vertex = composed(_VERTEX.get(path, "fullscreen.vert"), blocks=lambda own: carry(blocks, fragment.words, own.run).vertex)
+        vertex = composed(_VERTEX.get(path, "fullscreen.vert"), blocks=lambda own: carry(blocks, fragment.words, own).vertex)
         return vertex, fragment
 
     @property
