@@ -5,6 +5,8 @@
 #defines
 #include "common/constants.glsl"
 
+#blocks
+
 uniform sampler2D things_met;   // of the nodes: place, and what is met there
 uniform sampler2D reached;      // of the cells
 uniform sampler2D reach_balls;  // common/reach.glsl

@@ -33,7 +33,7 @@ class Carried:
 
 
 def carry(blocks: Sequence[Block], words: Words, own: Words = _NO_WORDS) -> Carried:
-    """The numbers of `blocks` that `words` name, and the loose ones: those that are run as inputs as far as there is room; the fragment shader reads the rest itself.
+    """Numbers of `blocks` that `words` name, and loose ones: those that are run as inputs as far as there is room; the rest the fragment shader reads itself.
 
     Args:
         words: of the fragment shader.

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..planning import Plan
@@ -19,6 +20,10 @@ class Where:
 
     comparison: str
     depth: float
+
+    def holds(self, depths: np.ndarray) -> np.ndarray:
+        """Which pixels it is, by what the depth buffer holds of them; bool, of the same shape."""
+        return depths < self.depth if self.comparison == ">" else depths > self.depth if self.comparison == "<" else np.ones(depths.shape, bool)
 
 
 MATTER = Where(">", PixelClass.MATTER.depth_beyond)

@@ -96,7 +96,7 @@ class ViewPass:
         if view.scale is not None:
             samplers["colour_scale"] = self._colours(view.scale)
         prepared.sample(samplers)
-        if view.scale is not None and "view_range" in prepared.program:
+        if view.scale is not None and prepared.takes("view_range"):
             prepared.set(view_range=_range(view.scale))
         legend = prepared.program.get("view_legend", None)
         if isinstance(legend, moderngl.Uniform):

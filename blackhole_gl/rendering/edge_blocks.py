@@ -9,13 +9,10 @@ import numpy as np
 
 from ..shapes import Bool, Int
 from .ray_blocks import FreshBlocks
-from .squares import Squares
+from .squares import TOGETHER, Squares
 
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
 _IN_A_ROW, _ROWS = 128, 4
-
-# Pixels along each axis that software renderers shade together, whichever of them are asked for.
-_TOGETHER = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +75,9 @@ class EdgeBlocks:
         return EdgeBlocks(pixels, numbers, self.rows, seeking), fresh
 
     def fresh(self, picked: Bool[np.ndarray, " pixels"], side: int, *, all_new: bool) -> FreshBlocks:
-        """The blocks `picked` of a map of blocks of `side`² rays, which is `all_new` or holds the others already."""
+        """The blocks `picked` of a map of blocks of `side`² rays, which is `all_new`, with all of them picked, or holds the others already."""
+        if all_new and self.seeking.all():
+            return FreshBlocks((), (), None)
         seeking, others = (self._squares(picked & kind, side) for kind in (self.seeking, ~self.seeking))
         changed = None if all_new else self._groups(_numbers_of(self.places[picked] // _together(side)), side)
         return FreshBlocks(seeking, others, changed)
@@ -110,7 +109,7 @@ def _rows_for(blocks: int) -> int:
 
 def _together(side: int) -> int:
     """Blocks of `side`² rays, along each axis, that are shaded together."""
-    return max(_TOGETHER // side, 1)
+    return max(TOGETHER // side, 1)
 
 
 def _numbers_of(places: Int[np.ndarray, "places 2"]) -> Int[np.ndarray, " places"]:

@@ -3,10 +3,13 @@ lie at the rim of a field's sphere."""
 
 from __future__ import annotations
 
+from functools import reduce
+
 import moderngl
 import numpy as np
 
 from ..glsl.declared import EdgeMark
+from .boxes import Box, joined
 from .classes import drawn, own_rays
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -33,11 +36,14 @@ class EdgePixels:
     def find(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[np.ndarray, np.ndarray]:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
         medium, bool (N,). Waits for the GPU."""
-        classes = hit_map.classes
-        texture = self._sorting.of(inputs, hit_map).marks if classes is None else self._marks_of_own_rays(inputs, hit_map, classes)
-        marks = np.frombuffer(texture.read(alignment=1), "<u2").reshape(texture.height, texture.width)
+        if hit_map.classes is None:
+            target, box = self._sorting.of(inputs, hit_map).marks, (0, 0, *inputs.size)
+        else:
+            target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
+        marks = np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
         pixels = at_edges(marks)
-        return pixels, beside_things(marks, pixels) if inputs.plan.meetings else np.zeros(len(pixels), bool)
+        seeking = beside_things(marks, pixels) if inputs.plan.meetings else np.zeros(len(pixels), bool)
+        return pixels + box[:2], seeking
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -45,22 +51,24 @@ class EdgePixels:
             self._own.release()
         self._own = self._classes = None
 
-    def _marks_of_own_rays(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> moderngl.Texture:
-        """Of a map that is not sharp, whose pixels without a ray of their own lie nowhere near an edge."""
+    def _marks_of_own_rays(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> tuple[Target, Box]:
+        """Of a map that is not sharp, whose pixels without a ray of their own lie nowhere near an edge; and the part of the picture that holds all others."""
         if self._own is None or self._classes is not classes:
             self.release()
             self._own, self._classes = marks_target(self._ctx, classes.size, classes), classes
         frame = self._own.frame
         frame.use()
         frame.depth_mask = False
-        frame.clear(1.0, 1.0)  # no ray
-        for where, switches in own_rays(inputs.plan):
+        kinds = own_rays(inputs.plan)
+        box = reduce(joined, (hit_map.box(where) for where, _ in kinds))
+        frame.clear(1.0, 1.0, viewport=box)  # no ray
+        for where, switches in kinds:
             marks = self._programs.get("edge_marks.frag", inputs, switches)
             marks.sample(hit_map.samplers())
             set_hiding(marks)
             with drawn(self._ctx, marks, where):
-                marks.draw()
-        return self._own.texture
+                marks.draw_boxes(hit_map.bands(where))
+        return self._own, box
 
 
 def at_edges(marks: np.ndarray) -> np.ndarray:
@@ -71,21 +79,19 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
     Args:
         marks: shaders/common/edge_marks.glsl, its first number in the low byte.
     """
-    rows, columns = _part_with_changes(marks)
-    framed = np.pad(marks[rows, columns], 1, mode="edge")
-    width, flat = framed.shape[1], framed.ravel()
-    places = _beside_changes(flat, width)
-    y, x = np.divmod(places, width)
-    inside = (x > 0) & (x < width - 1) & (y > 0) & (y < len(framed) - 1)
-    places, x, y = places[inside], x[inside], y[inside]
-    here = flat[places]
-    counts = np.where(here & EdgeMark.VEILED, _SEEN_THROUGH_VEIL, _SEEN)
-    differs = np.zeros(places.shape, bool)
-    for step in (-width - 1, -width, -width + 1, -1, 1, width - 1, width, width + 1):
-        beside = flat[places + step]
-        differs |= _has_ray(beside) & ((beside ^ here) & counts != 0)
-    found = differs & _has_ray(here)
-    return np.stack([x[found] + (columns.start - 1), y[found] + (rows.start - 1)], axis=-1)
+    width = marks.shape[1] + 1
+    flat = np.full((len(marks) + 2, width), EdgeMark.NO_RAY, np.uint16)  # about the picture there are none; one column keeps both sides apart
+    flat[1:-1, 1:] = marks
+    flat = flat.ravel()
+    found = np.zeros(flat.size, bool)
+    for apart in (1, width - 1, width, width + 1):
+        first = np.flatnonzero(flat[apart:] != flat[:-apart])
+        here, there = flat[first], flat[first + apart]
+        both, changed = _has_ray(here) & _has_ray(there), here ^ there
+        found[first[both & (changed & _counts(here) != 0)]] = True
+        found[first[both & (changed & _counts(there) != 0)] + apart] = True
+    rows, columns = np.divmod(np.flatnonzero(found), width)
+    return np.stack([columns - 1, rows - 1], axis=-1)
 
 
 def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
@@ -100,23 +106,9 @@ def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     return found
 
 
-def _part_with_changes(marks: np.ndarray) -> tuple[slice, slice]:
-    """Rows and columns that hold all edges of `marks`: much of most pictures is sky and nothing else."""
-    busy = marks != marks[0, 0]
-    rows, columns = (np.flatnonzero(busy.any(axis=axis)) for axis in (1, 0))
-    if not rows.size:
-        return slice(0, 1), slice(0, 1)
-    return slice(max(rows[0] - 1, 0), rows[-1] + 2), slice(max(columns[0] - 1, 0), columns[-1] + 2)
-
-
-def _beside_changes(flat: np.ndarray, width: int) -> np.ndarray:
-    """Places in the picture `flat`, of rows of `width`, of all that differ from one of the eight beside them, and a few more."""
-    near = np.zeros(flat.size, bool)
-    for apart, across in ((1, width), (width, 1)):
-        changes = np.flatnonzero(flat[apart:] != flat[:-apart])
-        for step in (-across, 0, across, apart - across, apart, apart + across):
-            near[np.clip(changes + step, 0, flat.size - 1)] = True
-    return np.flatnonzero(near)
+def _counts(marks: np.ndarray) -> np.ndarray:
+    """The bits in which the mark beside has to differ."""
+    return np.where(marks & EdgeMark.VEILED, _SEEN_THROUGH_VEIL, _SEEN)
 
 
 def _has_ray(marks: np.ndarray) -> np.ndarray:

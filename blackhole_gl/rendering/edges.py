@@ -9,7 +9,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .classes import Where, drawn
+from .boxes import NOWHERE, Box, joined
 from .coarse_transfer import CoarseMedia
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
@@ -17,9 +17,9 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
 from .ray_blocks import RayBlocks
-from .shading import Box, ShadePass
+from .shading import ShadePass
 from .sorting import PixelSorting, hides
-from .squares import Squares
+from .squares import TOGETHER, Squares
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
@@ -28,11 +28,7 @@ from .temperatures import TemperatureProfile
 # screen's along each, in a picture that is drawn so coarse: it has fewer of them, and a ring that is a few hundredths of one wide would be a row of beads.
 _MOVING_SIDE, _COARSE_SIDE, _COARSE = 2, 4, 2.5
 
-# Room for the column and row of a block in the numbers by which it is told what has changed.
-_COLUMN_BITS, _ENTRY_BITS = 8, 28
-
-# Depth of the pixels at edges and of all others, and between the two.
-_EDGE, _OTHER, _BETWEEN = 0.25, 0.75, 0.5
+_NO_BLOCK = 0xFFFF
 
 
 class EdgeRays:
@@ -83,10 +79,7 @@ class EdgeRays:
         resolve.set(pairs=self._blocks.side // 2)
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})
         self._places.frame(target).use()
-        self._ctx.scissor = self._places.box
-        with drawn(self._ctx, resolve, Where(">", _BETWEEN)):
-            resolve.draw()
-        self._ctx.scissor = None
+        resolve.draw_squares(self._places.squares)
 
     @property
     def rays_a_pixel(self) -> int:
@@ -161,50 +154,41 @@ class _Places:
     """Where in a picture of `size` the pixels at edges are, and their blocks of rays.
 
     Attributes:
-        block_of_pixel: RG16F, column and row of the pixel's block; without meaning at all other pixels.
-        box: the smallest part of the picture that holds them all.
+        block_of_pixel: RG16UI, column and row of the pixel's block; `_NO_BLOCK` of all other pixels.
+        squares: of the picture, that hold them all: as large as what software renderers shade together.
     """
 
     def __init__(self, ctx: moderngl.Context, size: tuple[int, int]):
         self._ctx = ctx
         self.size = size
-        self.block_of_pixel = ctx.texture(size, 2, dtype="f2")
-        self.box: Box = (0, 0, *size)
-        self._depth = ctx.depth_texture(size)
-        self._host = np.full(size[::-1], _OTHER, np.float32)
-        self._blocks = np.zeros((*size[::-1], 2), np.float16)
-        self._entries = np.empty(0, np.int64)  # place and block of each pixel, in one number
-        self._is_new = True
+        self.squares = Squares.holding(np.empty((0, 2), int), 1, size)
+        self._blocks = np.full((*size[::-1], 2), _NO_BLOCK, np.uint16)
+        self.block_of_pixel = ctx.texture(size, 2, self._blocks.tobytes(), dtype="u2")
+        self.block_of_pixel.filter = moderngl.NEAREST, moderngl.NEAREST
+        self._pixels, self._box = np.empty((0, 2), int), NOWHERE
         self._frame: moderngl.Framebuffer | None = None
 
     def write(self, pixels: np.ndarray, blocks: np.ndarray) -> None:
         """The `pixels` have these `blocks`, each (N, 2), and no others have any."""
-        places = pixels[:, 1] * self.size[0] + pixels[:, 0]
-        entries = (places << _ENTRY_BITS) + (blocks[:, 1] << _COLUMN_BITS) + blocks[:, 0]
-        changed = np.setxor1d(entries, self._entries, assume_unique=True) >> _ENTRY_BITS
-        self._host.ravel()[self._entries >> _ENTRY_BITS] = _OTHER
-        self._host.ravel()[places] = _EDGE
+        before, self._box = self._box, _box_of(pixels)
+        self._blocks[self._pixels[:, 1], self._pixels[:, 0]] = _NO_BLOCK
         self._blocks[pixels[:, 1], pixels[:, 0]] = blocks
-        self._entries, self.box = entries, _box_of(pixels)
-        if self._is_new or len(changed):
-            part = (0, 0, *self.size) if self._is_new else _box_of(np.stack([changed % self.size[0], changed // self.size[0]], axis=-1))
-            self._depth.write(_part(self._host, part).tobytes(), part)
-            self.block_of_pixel.write(_part(self._blocks, part).tobytes(), part)
-        self._is_new = False
+        self._pixels, self.squares = pixels, Squares.holding(pixels, min(TOGETHER, *self.size), self.size)
+        x, y, width, height = changed = joined(before, self._box)
+        self.block_of_pixel.write(self._blocks[y : y + height, x : x + width].tobytes(), changed)
 
     def frame(self, target: Target) -> moderngl.Framebuffer:
-        """Draws into `target` with the pixels' depth, which it leaves as it is."""
+        """Draws into `target`."""
         if self._frame is None or self._frame.color_attachments[0] is not target.texture:
             if self._frame is not None:
                 self._frame.release()
-            self._frame = self._ctx.framebuffer([target.texture], self._depth)
-            self._frame.depth_mask = False
+            self._frame = self._ctx.framebuffer([target.texture])
             self._frame.color_mask = True, True, True, False  # alpha says where single stars are left out, which the pixel's own ray tells
         return self._frame
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for item in (self._frame, self._depth, self.block_of_pixel):
+        for item in (self._frame, self.block_of_pixel):
             if item is not None:
                 item.release()
         self._frame = None
@@ -214,8 +198,3 @@ def _box_of(pixels: np.ndarray) -> Box:
     """The smallest that holds `pixels` (N, 2), of which there is one at least."""
     (x, y), (right, top) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
     return x, y, right + 1 - x, top + 1 - y
-
-
-def _part(whole: np.ndarray, box: Box) -> np.ndarray:
-    x, y, width, height = box
-    return whole[y : y + height, x : x + width]

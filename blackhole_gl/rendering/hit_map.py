@@ -6,6 +6,7 @@ turns it to the world.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import count
 
@@ -15,7 +16,8 @@ import numpy as np
 from ..physics.observer import cos_sin_deg
 from ..planning import REACH_STEP, REFINE_STEP, Plan
 from . import hit_texels, reach, refinement
-from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS
+from .boxes import Box
+from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where
 from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
@@ -135,25 +137,31 @@ class HitMap:
         inputs = inputs.drawn_as(blocks.size)
         self._last, self._blocks, self._refined_for = inputs, blocks, None
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
-        if fresh.changed is None:
+        if fresh.whole:
+            self._trace_rows(self._rays_of(blocks, {}), target, 0, inputs.size[1])
+        elif fresh.changed is None:
             target.clear()
         for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
-            rays = self._programs.get("trace.frag", inputs, IN_BLOCKS | switches)
-            rays.sample(blocks.samplers)
-            rays.set(block_side=float(blocks.side))
-            self._bind_tables(rays)
-            for some in squares:
-                self._trace_squares(rays, target, some)
+            for some in filter(len, squares):
+                self._trace_squares(self._rays_of(blocks, switches), target, some)
         self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
         self._key, self.generation = None, next(_GENERATIONS)
         self.traces += 1
+
+    def _rays_of(self, blocks: RayBlocks, switches: Mapping[str, int]) -> Draw:
+        """What draws rays of `blocks`, made ready."""
+        rays = self._programs.get("trace.frag", self._traced, {**IN_BLOCKS, **switches})
+        rays.sample(blocks.samplers)
+        rays.set(block_side=float(blocks.side))
+        self._bind_tables(rays)
+        return rays
 
     def _bind_tables(self, rays: Draw) -> None:
         """Gives the trace pass what it looks up: tables of the ray model, and the things and media that rays may meet."""
         plan = rays.inputs.plan
         things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS), things)
-        if "meeting_reach" in rays.program:
+        if rays.takes("meeting_reach"):
             rays.set(meeting_reach=plan.reach)
 
     @property
@@ -176,6 +184,14 @@ class HitMap:
     def classes(self) -> moderngl.Texture | None:
         """Depth by what each pixel needs (shaders/refine_classes.frag), for a map that is not sharp; None for a sharp one."""
         return None if self.is_sharp else self._grid.classes
+
+    def bands(self, where: Where) -> Sequence[Box]:
+        """Parts of a map that is not sharp which hold all of its pixels that are `where`."""
+        return self._grid.bands(where)
+
+    def box(self, where: Where) -> Box:
+        """The same in one part."""
+        return self._grid.box(where)
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -77,15 +78,17 @@ class UniformBuffers:
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._written: dict[str, bytes] | None = None
 
-    def bind(self, inputs: FrameInputs) -> None:
-        """Binds the blocks of `inputs`, written anew unless they are those written last. Binding is not remembered: others may share the context."""
+    def bind(self, inputs: FrameInputs, used: Collection[str]) -> None:
+        """Binds those blocks of `inputs` that are `used`, all written anew unless they are those written last. Binding is not remembered: others may share the
+        context."""
         for block in uniforms.blocks():
             buffer = self._buffers.get(block.name)
             if buffer is None:
                 buffer = self._buffers[block.name] = self._ctx.buffer(inputs.blocks[block.name], dynamic=True)
             elif inputs.blocks is not self._written:
                 buffer.write(inputs.blocks[block.name])
-            buffer.bind_to_uniform_block(block.binding)
+            if block.name in used:
+                buffer.bind_to_uniform_block(block.binding)
         self._written = inputs.blocks
 
     def release(self) -> None:

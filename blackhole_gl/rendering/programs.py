@@ -7,7 +7,7 @@ import math
 import os
 import time as clock
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import count
@@ -24,6 +24,7 @@ from ..planning import Plan
 from ..resources import shaders_dir, user_shaders_dir
 from ..scene import catalogue, met
 from . import instances, uniforms
+from .boxes import Box
 from .inputs import FrameInputs, UniformBuffers
 from .squares import SquareBuffer, Squares
 
@@ -80,6 +81,16 @@ class Compiled:
     triangle: moderngl.VertexArray
     squares: moderngl.VertexArray
 
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """Its samplers, loose uniforms and blocks: looking a name up in the program walks through all of them."""
+        return frozenset(self.program)
+
+    @cached_property
+    def values(self) -> dict[str, object]:
+        """What its samplers and loose uniforms were last set to: to set one takes a hundred times as long as to compare."""
+        return {}
+
     @property
     def program(self) -> moderngl.Program:
         """The program, which takes samplers and loose uniforms."""
@@ -117,31 +128,49 @@ class Draw:
         """The program, which takes samplers and loose uniforms."""
         return self.compiled.program
 
+    def takes(self, name: str) -> bool:
+        """Whether the program has a sampler or a loose uniform of that name."""
+        return name in self.compiled.names
+
     def sample(self, samplers: Samplers, first: int = 0) -> None:
         """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
-        used = [name for name in samplers if name in self.program]
+        used = [name for name in samplers if name in self.compiled.names]
         for unit, name in enumerate(used, first):
             samplers[name].use(unit)
-            self.program[name] = unit
+            self._give(name, unit)
 
     def set(self, **uniforms: object) -> None:
         """Sets loose uniforms by name."""
         for name, value in uniforms.items():
+            self._give(name, value)
+
+    def _give(self, name: str, value: object) -> None:
+        held = self.compiled.values
+        if name not in held or held[name] != value:
             self.program[name] = value
+            held[name] = value
 
     def draw(self) -> None:
         """Draws the triangle that covers the bound target."""
-        self._buffers.bind(self.inputs)
+        self._buffers.bind(self.inputs, self.compiled.names)
         self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def draw_boxes(self, boxes: Iterable[Box]) -> None:
+        """Draws `boxes` of the bound target alone, by its scissor."""
+        ctx = self.compiled.triangle.ctx
+        for box in boxes:
+            ctx.scissor = box
+            self.draw()
+        ctx.scissor = None
 
     def draw_squares(self, squares: Squares) -> None:
         """Draws `squares` of the bound target alone."""
-        self._buffers.bind(self.inputs)
+        self._buffers.bind(self.inputs, self.compiled.names)
         self._squares.draw(self.compiled.squares, squares)
 
     def draw_points(self, count: int) -> None:
         """Draws `count` points, by a program whose vertex shader places them."""
-        self._buffers.bind(self.inputs)
+        self._buffers.bind(self.inputs, self.compiled.names)
         self.compiled.triangle.render(moderngl.POINTS, vertices=count)
 
 

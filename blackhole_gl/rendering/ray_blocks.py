@@ -37,7 +37,7 @@ class RayBlocks:
 
 @dataclass(frozen=True, eq=False)
 class FreshBlocks:
-    """Which blocks of a map are to be traced, as squares of it.
+    """Which blocks of a map are to be traced, as squares of it; all of it, looking for things and media, where there are no squares and none stand.
 
     Attributes:
         seeking: of rays that look for things and media.
@@ -48,3 +48,8 @@ class FreshBlocks:
     seeking: tuple[Squares, ...]
     others: tuple[Squares, ...]
     changed: Squares | None
+
+    @property
+    def whole(self) -> bool:
+        """Whether that is all of the map."""
+        return self.changed is None and not (self.seeking or self.others)

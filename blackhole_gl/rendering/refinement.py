@@ -11,6 +11,7 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
+from .boxes import Box, bands_of, box_of
 from .classes import Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs
@@ -23,6 +24,9 @@ FILLED = {"CELLS_FILLED": 1}
 
 # Crossings beyond the disk's edges by this ratio of radii do not matter: room for what lies between two nodes of the grid.
 _BEYOND_DISK = 1.25
+
+# Rows of cells whose pixels with rays of their own are drawn at a time: as high as the tiles of llvmpipe.
+_BAND = 64 // REFINE_STEP
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
 _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2"), ("bend2", "f2"))
@@ -63,6 +67,7 @@ class CoarseGrid:
         self._ctx, self._programs = ctx, programs
         self._kept: _Made | None = None
         self._own: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
+        self._cells: np.ndarray | None = None  # depth by what the pixels of each cell need; None once it is not the same for all of a cell's
 
     @property
     def _made(self) -> _Made:
@@ -91,6 +96,8 @@ class CoarseGrid:
         rays.draw()
         self._make_nodes(inputs, made)
         self._judge_cells(inputs, made, reached, solid)
+        classes = made.cells.textures[1]
+        self._cells = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(classes.height, classes.width) * np.float32(1.0 / 255.0)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
@@ -104,16 +111,26 @@ class CoarseGrid:
         own.depth_mask = False
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
-            rays.draw()
+            rays.draw_boxes(self.bands(where))
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""
         made = self._made
         return {"cells": made.cells.texture, **made.node_textures}
 
+    def bands(self, where: Where) -> Sequence[Box]:
+        """Parts of the picture that hold all of its pixels that are `where`; all of it once `give_own_rays` or `give_things` has changed some."""
+        size = self.classes.size
+        return [(0, 0, *size)] if self._cells is None else list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
+
+    def box(self, where: Where) -> Box:
+        """The same in one part."""
+        size = self.classes.size
+        return (0, 0, *size) if self._cells is None else box_of(where.holds(self._cells), size, REFINE_STEP)
+
     def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
-        made = self._made
+        made, self._cells = self._made, None
         cells = made.cells.texture
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
@@ -121,7 +138,7 @@ class CoarseGrid:
 
     def give_things(self, inputs: FrameInputs, squares: Squares, sharp_rows: int) -> None:
         """Marks `squares` as traced pixel by pixel and as ones that may show a thing; of the rows below `sharp_rows` every pixel is traced."""
-        made = self._made
+        made, self._cells = self._made, None
         for texture, value in zip(made.cells.textures, (0, round(255.0 * PixelClass.THING.depth))):
             cells = np.frombuffer(texture.read(alignment=1), np.uint16 if value == 0 else np.uint8).reshape(texture.height, texture.width).copy()
             cells[squares.mask(inputs.size, REFINE_STEP)] = value
@@ -168,10 +185,14 @@ class CoarseGrid:
         classes.sample({"cell_classes": cell_classes})
         classes.set(pixels_to_cells=tuple(1.0 / (REFINE_STEP * side) for side in cell_classes.size), all_traced=float(all_traced))
         made.sorted.use()
-        made.sorted.scissor = 0, first, made.classes.width, end - first
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        classes.draw()
+        if self._cells is None:
+            classes.draw_boxes([(0, first, made.classes.width, end - first)])
+        else:  # most of a picture is flat sky, and a clear takes next to nothing
+            made.sorted.clear(depth=PixelClass.FLAT_SKY.depth)
+            others = np.abs(self._cells - PixelClass.FLAT_SKY.depth) > 0.05
+            classes.draw_boxes(bands_of(others, inputs.size, REFINE_STEP, _BAND))
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 

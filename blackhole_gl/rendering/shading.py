@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
+from .boxes import Box, box_of, joined
 from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
 from .coarse_transfer import CoarseMedia, CoarseTransfer
 from .hit_map import HitMap
@@ -26,16 +27,12 @@ _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 _STRETCHES = {"STRETCHES": 1}
 """The switch of what reads the light of media and has hits that know of none."""
 
-Box = tuple[int, int, int, int]
-"""x, y, width and height of a part of the picture, in pixels from the bottom left."""
-
-
 class ShadePass:
     """Draws shaders/shade_*.frag.
 
     First every pixel is sorted by what it needs, into a depth buffer; then the depth test lets the disk's and the sky's
     shaders run only where they are needed. The sorting is kept as long as the hit map and the disk's edges are, and from its second frame on the
-    disk is drawn within its bounds alone; a refined hit map brings a sorting of its own (shaders/refine_classes.frag).
+    disk is drawn within its bounds alone; a refined hit map brings a sorting and bounds of its own (shaders/refine_classes.frag).
 
     Args:
         tables, temperatures: what those shaders read; they stay their owner's.
@@ -103,7 +100,7 @@ class ShadePass:
         """
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
-        self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else None)
+        self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else hit_map.box(where))
 
     def _draw_media(self, inputs: FrameInputs, hit_map: HitMap) -> None:
         """The media where no disk is seen, before all else."""
@@ -181,7 +178,7 @@ class ShadePass:
 
     def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._prepared("shade_sky.frag", inputs, hit_map, switches)
-        if "finer" in prepared.program:  # a sky with stars
+        if prepared.takes("finer"):  # a sky with stars
             prepared.set(finer=min(inputs.finer))
         return prepared
 
@@ -192,7 +189,7 @@ class ShadePass:
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
         prepared.sample(self._samplers(inputs, hit_map))
-        if "block_side" in prepared.program:
+        if prepared.takes("block_side"):
             prepared.set(block_side=float(hit_map.block_side))
         return prepared
 
@@ -228,7 +225,7 @@ class ShadePass:
         elif not self._boxes:
             self._boxes = {where: _box_of(found.depth, where) for where in (MATTER, THINGS)}
         elif changed:
-            self._boxes = {where: _joined(box, changed.box(found.depth.size)) for where, box in self._boxes.items()}
+            self._boxes = {where: joined(box, changed.box(found.depth.size)) for where, box in self._boxes.items()}
         return found.depth
 
     def _attached(self, target: moderngl.Framebuffer, classes: moderngl.Texture) -> moderngl.Framebuffer:
@@ -247,20 +244,7 @@ class ShadePass:
         self._sky, self._frame, self._sky_key, self._sky_kept = None, None, None, False
 
 
-def _joined(box: Box, other: Box) -> Box:
-    """The smallest that holds both."""
-    if not (box[2] and box[3]):
-        return other
-    low = min(box[0], other[0]), min(box[1], other[1])
-    high = max(box[0] + box[2], other[0] + other[2]), max(box[1] + box[3], other[1] + other[3])
-    return *low, high[0] - low[0], high[1] - low[1]
-
-
 def _box_of(classes: moderngl.Texture, where: Where) -> Box:
-    """The smallest that holds all pixels of a class; of no size where there are none. Waits for the GPU."""
+    """The smallest that holds all pixels of a class. Waits for the GPU."""
     depth = np.frombuffer(classes.read(), np.float32).reshape(classes.height, classes.width)
-    pixels = depth < where.depth if where.comparison == ">" else depth > where.depth
-    rows, columns = np.flatnonzero(pixels.any(axis=1)), np.flatnonzero(pixels.any(axis=0))
-    if not rows.size:
-        return 0, 0, 0, 0
-    return int(columns[0]), int(rows[0]), int(columns[-1] - columns[0]) + 1, int(rows[-1] - rows[0]) + 1
+    return box_of(where.holds(depth), classes.size)

@@ -29,7 +29,7 @@ class Sorted:
 
     key: tuple
     depth: moderngl.Texture
-    marks: moderngl.Texture
+    marks: Target
     before: tuple | None = None
     changed: Squares | None = None
 
@@ -80,7 +80,7 @@ class PixelSorting:
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
         before = self._kept.key if self._kept is not None and changed is not None else None
-        return Sorted(key, self._depth, self._target.texture, before, changed)
+        return Sorted(key, self._depth, self._target, before, changed)
 
 
 def hides(scene: Scene) -> bool:
@@ -97,5 +97,5 @@ def marks_target(ctx: moderngl.Context, size: tuple[int, int], depth: moderngl.T
 
 def set_hiding(marks: Draw) -> None:
     """Tells a program that makes marks what the disk hides, if it asks."""
-    if "disk_hides" in marks.program:
+    if marks.takes("disk_hides"):
         marks.set(disk_hides=hides(marks.inputs.plan.scene))

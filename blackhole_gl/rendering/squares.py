@@ -9,6 +9,9 @@ import numpy as np
 
 from ..shapes import Float, Int
 
+TOGETHER = 4
+"""Pixels along each axis that software renderers shade together, whichever of them are asked for."""
+
 _POINT = 12  # bytes
 
 
@@ -33,6 +36,13 @@ class Squares:
         corner = np.minimum(side * places, np.array(size) - side)
         middle = (2.0 * corner + side) / np.array(size) - 1.0
         return cls(side, places, np.column_stack([middle, np.full(len(places), side)]).astype(np.float32))
+
+    @classmethod
+    def holding(cls, pixels: Int[np.ndarray, "pixels 2"], side: int, size: tuple[int, int]) -> Squares:
+        """Those of a picture of `size` that hold any of `pixels`, column and row each."""
+        columns = -(-size[0] // side)
+        rows, column = np.divmod(np.flatnonzero(np.bincount(pixels[:, 1] // side * columns + pixels[:, 0] // side)), columns)
+        return cls.of(np.stack([column, rows], axis=-1), side, size)
 
     def __len__(self) -> int:
         return len(self.places)

@@ -1,6 +1,8 @@
 #version 330 core
 // A Gaussian along one axis, to 4σ either way; weights sum to 1.
 
+#blocks
+
 uniform sampler2D source;
 uniform ivec2 source_last;   // the last pixel that holds light, which goes on beyond
 uniform ivec2 axis;          // (1, 0) or (0, 1)

@@ -1,6 +1,8 @@
 #version 330 core
 // A smooth picture enlarged along one axis by the cubic B-spline, which widens it by a third of a pixel's square: the Gaussian before it is narrower by as much.
 
+#blocks
+
 uniform sampler2D source;
 uniform ivec2 axis;          // (1, 0) or (0, 1)
 uniform float factor;        // by how much it is enlarged

@@ -1,6 +1,8 @@
 #version 330 core
 // A picture at half its size along one axis, by the binomial weights 1 5 10 10 5 1: a plain mean would let what is finer than a pixel shift what is left.
 
+#blocks
+
 uniform sampler2D source;
 uniform ivec2 source_last;   // the last pixel that holds light, which goes on beyond
 uniform ivec2 axis;          // (1, 0) or (0, 1)

@@ -5,6 +5,8 @@
 //               wherever it falls between the pixels. It also takes the threshold off.
 //   others:     to a half, centre weight 4.
 
+#blocks
+
 uniform sampler2D source;
 uniform vec2 source_scale;    // from a pixel of the target to its place in the source
 uniform vec2 source_last;     // the last place that holds light: the source may be larger than what lies in it

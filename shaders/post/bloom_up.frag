@@ -2,6 +2,8 @@
 // One step up the bloom chain: the wider glow, spread with a 3×3 tent, mixed with this level's own light.
 // Tent weights sum to 1 and the mix is convex, so the mean light is kept however wide the glow is.
 
+#blocks
+
 uniform sampler2D wider;     // the next smaller level, already accumulated
 uniform sampler2D level;     // this level on the way down
 uniform vec2 wider_scale;    // from a pixel of the target to its place in `wider`

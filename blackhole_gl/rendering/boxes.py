@@ -1,0 +1,45 @@
+"""Parts of a picture that draws are kept to.
+
+Software renderers look at the depth of every pixel that a draw covers, be its shader kept from it or not: 2 ms of a picture of 1280×720.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..shapes import Bool
+
+Box = tuple[int, int, int, int]
+"""x, y, width and height of a part of the picture, in pixels from the bottom left."""
+
+NOWHERE: Box = (0, 0, 0, 0)
+
+
+def box_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side: int = 1) -> Box:
+    """The smallest that holds all that is `picked` of a picture of `size`, in cells of `side` pixels each way; `NOWHERE` where nothing is."""
+    rows, columns = np.flatnonzero(picked.any(axis=1)), np.flatnonzero(picked.any(axis=0))
+    if not rows.size:
+        return NOWHERE
+    x, y = side * int(columns[0]), side * int(rows[0])
+    return x, y, min(side * int(columns[-1] + 1), size[0]) - x, min(side * int(rows[-1] + 1), size[1]) - y
+
+
+def bands_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side: int, height: int) -> Iterator[Box]:
+    """The same for each `height` rows of cells that hold any: for what lies about a hole, or far apart."""
+    for first in range(0, len(picked), height):
+        x, y, width, rows = box_of(picked[first : first + height], (size[0], size[1] - side * first), side)
+        if width:
+            yield x, y + side * first, width, rows
+
+
+def joined(box: Box, other: Box) -> Box:
+    """The smallest that holds both."""
+    if not (box[2] and box[3]):
+        return other
+    if not (other[2] and other[3]):
+        return box
+    low = min(box[0], other[0]), min(box[1], other[1])
+    high = max(box[0] + box[2], other[0] + other[2]), max(box[1] + box[3], other[1] + other[3])
+    return *low, high[0] - low[0], high[1] - low[1]
