@@ -38,10 +38,11 @@ void main() {
     March m = march_start(orbit, ray_init(start, orbit, hits));
     Path path = ray_path(orbit, m.s);
     Spot here = spot_of(path), camera = Spot(start.n * (0.5 / start.w), here.rate);
-    float margin = reach_margin(here);
-    Reached reached = balls_near(camera, here, vec2(0.0, margin));
+    Margin margin = reach_margin(here);
+    Reached reached = balls_near(camera, here, margin_about(0.0), margin);
     int fate = orbit.bends > 0.0 ? UNRESOLVED : PASSED_BY;
-    for (int k = 0; k < reach_steps; k += reach_stride) {
+    int steps = 0;
+    do {
         bool was_under_way = fate == UNRESOLVED;
         Spot before = here;
         int done = 0;
@@ -53,13 +54,14 @@ void main() {
             if (under_way) here = spot_of(leaves ? curve_path(Curve(old, path, m.h), ray_end(orbit, m.s, m.next, m.h)) : path);
             fate = under_way && leaves ? ESCAPED : fate;
         } while (++done < reach_stride);
-        float margin_before = margin;
+        Margin margin_before = margin;
         margin = reach_margin(here);
-        Reached found = balls_near(before, here, vec2(margin_before, margin));
+        Reached found = balls_near(before, here, margin_before, margin);
         if (was_under_way) reached = reached_on(reached, found);
-    }
+        steps += reach_stride;
+    } while (steps < reach_steps && any_of_quad(fate == UNRESOLVED));
     Spot end = straight_end(here);
-    Reached found = balls_near(here, end, vec2(margin, reach_margin(end)));
+    Reached found = balls_near(here, end, margin, reach_margin(end));
     if (fate != UNRESOLVED) reached = reached_on(reached, found);
     node = packed_node(fate, reached);
 }

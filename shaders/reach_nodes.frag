@@ -60,10 +60,11 @@ void main() {
     March m = march_start(orbit, ray_init(start, orbit, hits));
     Path path = ray_path(orbit, m.s);
     Spot here = spot_of(path);
-    float margin = reach_margin(here);
+    Margin margin = reach_margin(here);
     int fate = UNRESOLVED;
     Reached reached = NONE_REACHED;
-    for (int k = 0; k < reach_steps; ++k) {
+    int steps = 0;
+    do {
         march_once(orbit, m);
         Path old = path;
         path = ray_path(orbit, m.next);
@@ -72,7 +73,7 @@ void main() {
         float part = part_at(orbit, m, old, path, falls ? reach_radii.x : leaves ? reach_radii.y : 1e30, end);
         bool under_way = fate == UNRESOLVED;
         if (under_way) here = end;
-        float margin_before = margin;
+        Margin margin_before = margin;
         margin = reach_margin(here);
         int pieces = under_way && is_bent(old, path, before, here) ? PIECES : 1, done = 0;
         float way = distance(before.x, here.x);
@@ -81,12 +82,14 @@ void main() {
             Spot after = spot_at(orbit, m, float(done + 1) / float(pieces) * part);
             if (done + 1 == pieces) after = here;
             vec2 gone = min(vec2(distance(begun, before.x), distance(begun, after.x)) / max(way, 1e-20), 1.0);
-            vec2 margins = mix(vec2(margin_before), vec2(margin), gone) + (falls && pieces > 1 ? BENT * min(length(after.x), BENT_WITHIN) : 0.0);
-            Reached found = balls_near(before, after, margins);
+            vec2 margins = mix(vec2(margin_before.most), vec2(margin.most), gone) + (falls ? BENT * min(length(after.x), BENT_WITHIN) : 0.0);
+            Margin begin = margin_before, finish = margin;
+            if (pieces > 1) begin = margin_about(margins.x), finish = margin_about(margins.y);
+            Reached found = balls_near(before, after, begin, finish);
             if (under_way) reached = reached_on(reached, found);
             before = after;
         } while (++done < pieces);
         fate = under_way ? (leaves ? ESCAPED : falls ? CAPTURED : UNRESOLVED) : fate;
-    }
+    } while (++steps < reach_steps && any_of_quad(fate == UNRESOLVED));
     node = packed_node(fate, reached);
 }

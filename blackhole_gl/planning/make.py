@@ -155,13 +155,17 @@ def _meetings(scene: Scene) -> int:
     """Meetings that are kept of a ray: one where whatever it meets first ends it; two where light comes through, as into and out of a medium.
 
     Raises:
-        SceneError: there are things or media, and the camera is inside the horizon.
+        SceneError: there are things or media, and the camera is inside the horizon; media reach beyond the sphere of a field, where rays are not marched.
     """
     if met.is_empty(scene):
         return 0
     if scene.camera.distance <= space_time(scene).horizon_radius:
         text = f"got {scene.camera.distance:g} r_s, inside the horizon, from where things and media are not met: allowed is outside"
         raise SceneError("camera.distance", text)
+    media = met.reach_of(scene, "medium")
+    if is_field(scene) and scene.rays.lensing and media > scene.rays.field_radius:
+        text = f"got {scene.rays.field_radius:g} r_s, and media reach {media:g} r_s from the middle: allowed is as far as they do, or farther"
+        raise SceneError("rays.field_radius", text)
     return 2 if scene.media or not all(kind.traits.opaque for kind in met.kinds(scene, "thing")) else 1
 
 
@@ -323,8 +327,7 @@ def _reach_steps(scene: Scene, model: PlugIn, control: PlugIn | None) -> int:
     if not all(kind.traits.moves or kind.traits.centre for slot in met.SLOTS for kind in met.kinds(scene, slot)):
         return 0
     if model.traits.field:
-        winding = _WINDING if control.key == "fixed" else 0.5 * _WINDING  # steps that grow with how slowly the field changes are fewer
-        needed = winding * 2.0 * scene.rays.field_radius / scene.rays.step_length
+        needed = _WINDING * 2.0 * scene.rays.field_radius / scene.rays.step_length
     else:
         needed = _steps_needed(scene, model, control, _REACH_TURNS)
     steps = math.ceil(needed) + 2

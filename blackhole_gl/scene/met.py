@@ -66,7 +66,12 @@ def extent(instance: Instance, traits: MetTraits) -> float:
 
 def reach(scene: Scene) -> float:
     """Radius in r_s about the hole beyond which no part of any of them lies, at any time; 0 where there is none."""
-    return max(_reach(named(scene, slot), tuple(kinds(scene, slot))) for slot in SLOTS)
+    return max(reach_of(scene, slot) for slot in SLOTS)
+
+
+def reach_of(scene: Scene, slot: str) -> float:
+    """The same of the instances of one `slot`."""
+    return _reach(named(scene, slot), tuple(kinds(scene, slot)))
 
 
 @lru_cache(maxsize=SCENES_KEPT)

@@ -281,21 +281,32 @@ Way way_of(Orbit orbit, March m) {
     return Way(a, ray_path(orbit, march_step(orbit, m.s, 0.5 * h)), b, h);
 }
 
-// One meeting within the step from `a` along `way`. As with crossings the place on the curve is stepped to again.
+const int MOST_TRIES = 5;
+const float CLOSE = 0.003;  // of what is taken for straight: the rest of the way is no step of the march, and errs by its square
+
+// One meeting within the step from `a` along `way`. As with crossings the place on the curve is stepped to again, and the rest is straight; where that is too long, as a
+// long step leaves the curve by more than the march errs, it is stepped to once more. A round leaves what is done where it is (docs/llvmpipe.md).
 void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hits) {
     State there;
-    float t = meeting_root(way, found), slip = 0.0;
-    for (int i = 0; i < 2; ++i) {  // the first time from where the curve has it, which a long step leaves by more than the march
-        t = clamp(t + slip / way.h, max(0.5 * t, way.a.place.w > 0.0 ? 0.0 : FAR_END), 1.0);  // never where a far ray begins, which is no place
+    float t = found.at, slip;
+    bool farther = false, done;
+    int tries = 0;
+    do {
         there = march_step(orbit, a, way.h * t);
         Path path = ray_path(orbit, there);
-        vec3 velocity = path_velocity(path);
+        vec3 x = path_point(path), velocity = path_velocity(path);
 #if RAYS_LIGHT_TRAVEL
         velocity -= earlier_by_delay(found.kind, found.index, ray_delay(there)) * ray_delay_rate(orbit, there);
 #endif
-        float speed = length(velocity);
-        slip = beyond_surface(found, path_point(path), velocity / speed) / speed;
-    }
+        float speed = length(velocity), near = straight_reach(found.size, x);
+        float beyond = beyond_surface(found, x, velocity / speed, farther ? max(0.3 * found.size, near) : near);
+        bool known = beyond < 1e29, close = abs(beyond) < CLOSE * near;
+        done = close || farther && !known;
+        slip = known ? beyond / speed : 0.0;
+        float moved = clamp(t + slip / way.h, max(0.5 * t, way.a.place.w > 0.0 ? 0.0 : FAR_END), 1.0);  // never where a far ray begins, which is no place
+        t = done ? t : moved;
+        farther = done ? farther : !known;
+    } while (!done && ++tries < MOST_TRIES);
 #if RAYS_LIGHT_TRAVEL
     there = ray_delayed(there, slip * ray_delay_rate(orbit, there));
 #endif

@@ -214,56 +214,45 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     return near;
 }
 
-// The parameter between `from` and `to`, at which the curve is at a and b, where it is beside what is the part `part` of the way from a to b: false position.
+// The parameter between `from` and `to`, at which the curve is at a and b, where it is beside what is the part `part` of the way from a to b: as it would be if places
+// were linear in it, and once more by false position.
 float parameter_beside(Way way, float from, float to, Path a, Path b, float part) {
-    vec3 begin = path_point(a), onward = path_point(b) - begin, x = begin + part * onward;
-    float low = from, high = to, below = -part * dot(onward, onward), above = below + dot(onward, onward);
-    // As it would be if places were linear in it.
+    vec3 begin = path_point(a), onward = path_point(b) - begin;
     float t = mix(from, to, part * a.place.w / max(mix(b.place.w, a.place.w, part), 1e-30));
-    for (int i = 0; i < 3; ++i) {
-        if (i > 0) t = mix(low, high, clamp(below / min(below - above, -1e-20), 0.0, 1.0));
-        float here = dot(path_point(way_path(way, t)) - x, onward);
-        if (here < 0.0) { low = t; below = here; above *= 0.7; } else { high = t; above = here; below *= 0.7; }
-    }
-    return t;
+    float whole = dot(onward, onward), beyond = dot(path_point(way_path(way, t)) - begin, onward) - part * whole;
+    return beyond < 0.0 ? mix(t, to, beyond / min(beyond - (1.0 - part) * whole, -1e-20)) : mix(t, from, beyond / max(beyond + part * whole, 1e-20));
 }
 
 const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far away, left out there: a thousand times as far as its other end
 
-// The first meeting on the curve between its parameters `from` and `to`.
+// The first meeting on the curve between its parameters `from` and `to`. A round leaves a way that is done where it is (docs/llvmpipe.md).
 Found next_meeting(Way way, float from, float to, int first) {
     float t = way.a.place.w <= 0.0 ? max(from, FAR_END) : from;
     float last = way.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
-    Path here = way_path(way, t);
-    vec3 x = path_point(here);
-    float part = last - t;
-    Path ahead = here;
-    Found found = NOTHING_FOUND;
-    for (int i = 0; i < MOST_PIECES; ++i) {
-        if (t >= last) break;
-        float next = min(t + part, t < 0.5 ? min(last, 0.5) : last), allowed;
-        Path there = way_path(way, next);
-        vec3 y = path_point(there);
-        float stray = path_stray(here, there, next - t).off;
+    Path here = way_path(way, t), ahead;
+    float part = last - t, next;
+    Found found;
+    bool done;
+    int pieces = 0;
+    do {
+        next = min(t + part, t < 0.5 ? min(last, 0.5) : last);
+        ahead = way_path(way, next);
+        float stray = path_stray(here, ahead, next - t).off, allowed;
 #if RAYS_LIGHT_TRAVEL
         stray = max(stray, 1e-9);  // beside which the bows of circles are measured
 #endif
-        found = first_on_piece(x, y AND_TIME(vec2(path_delay(here), path_delay(there))), stray, first, allowed);
-        if (stray > allowed) {
-            found = NOTHING_FOUND;
-            part = (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
-            continue;
+        found = first_on_piece(path_point(here), path_point(ahead) AND_TIME(vec2(path_delay(here), path_delay(ahead))), stray, first, allowed);
+        bool fine = stray <= allowed;
+        if (!fine) found = NOTHING_FOUND;
+        done = t >= last || fine && (found.kind != MEETING_NONE || next >= last || path_leaves(here, ahead, meeting_reach));
+        if (!done) {
+            part = fine ? 2.0 * part : (next - t) * clamp(0.9 * sqrt(allowed / stray), 0.1, 0.7);
+            t = fine ? next : t;
         }
-        to = next;
-        ahead = there;
-        if (found.kind != MEETING_NONE) break;
-        if (path_leaves(here, there, meeting_reach)) break;
-        t = next;
-        here = there;
-        x = y;
-        part *= 2.0;
-    }
-    if (found.kind != MEETING_NONE) found.at = parameter_beside(way, t, to, here, ahead, found.at);
+        if (!done && fine) here = ahead;
+    } while (!done && ++pieces < MOST_PIECES);
+    if (t >= last) found = NOTHING_FOUND;
+    if (found.kind != MEETING_NONE) found.at = parameter_beside(way, t, next, here, ahead, found.at);
     return found;
 }
 
@@ -275,36 +264,27 @@ float crossing_beyond(Found found, vec3 x, vec3 onward, float most) {
     return part <= 1.0 ? (2.0 * part - 1.0) * most : 1e30;
 }
 
-// How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s; no farther than a part of its size.
-float beyond_surface(Found found, vec3 x, vec3 onward) {
-    float most = 0.3 * found.size, beyond = 1e30;
-#if MEETINGS_BY_DISTANCE
-    if (tells_distance(found.kind)) {
-        float off = distance_to(found.kind, found.index, x), probe = 1e-3 * min(found.size, 1.0) + 1e-5 * length(x);
-        float slope = (distance_to(found.kind, found.index, x + probe * onward) - off) / probe;
-        beyond = -off / (abs(slope) < 1e-6 ? 1e30 : slope);
-    }
-#endif
-    if (!tells_distance(found.kind)) {
-        beyond = crossing_beyond(found, x, onward, 4.0 * stray_allowed(found.size) + 1e-5 * length(x));
-        if (beyond > most) beyond = crossing_beyond(found, x, onward, most);
-    }
-    return beyond > 1e29 ? 0.0 : clamp(beyond, -most, most);
+// How far a surface may be from where a curve has it, so that a straight way leads there; r_s.
+float straight_reach(float size, vec3 x) {
+    return 4.0 * stray_allowed(size) + 1e-5 * length(x);
 }
 
-// The parameter of the curve at which it meets the surface of what was found, from one close to it: Newton's method.
-float meeting_root(Way way, Found found) {
-    float t = found.at;
-    for (int i = 0; i < 3; ++i) {
-        Path here = way_path(way, t);
-        vec3 velocity = path_velocity(here);
-#if RAYS_LIGHT_TRAVEL
-        velocity -= earlier_by_delay(found.kind, found.index, path_delay(here)) * path_delay_rate(here);  // as what was found sees it
-#endif
-        float speed = length(velocity);
-        t += beyond_surface(found, path_point(here), velocity / speed) / speed;
+// How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s; 1e30 where that is more than `most`.
+float beyond_surface(Found found, vec3 x, vec3 onward, float most) {
+    float beyond = 1e30;
+#if MEETINGS_BY_DISTANCE
+    if (tells_distance(found.kind)) {
+        float probe = 1e-3 * min(found.size, 1.0) + 1e-5 * length(x);
+        beyond = 0.0;
+        for (int i = 0; i < 3; ++i) {  // Newton's method
+            float off = distance_to(found.kind, found.index, x + beyond * onward);
+            float slope = (distance_to(found.kind, found.index, x + (beyond + probe) * onward) - off) / probe;
+            beyond = abs(slope) < 1e-6 ? 1e30 : clamp(beyond - off / slope, -2.0 * most, 2.0 * most);
+        }
     }
-    return t;
+#endif
+    if (!tells_distance(found.kind)) beyond = crossing_beyond(found, x, onward, most);
+    return abs(beyond) <= most ? beyond : 1e30;
 }
 
 // A ray that begins inside a medium, at a camera there, has gone into it where it begins.

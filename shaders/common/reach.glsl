@@ -1,8 +1,8 @@
 // Whether coarse rays, side by side, come so near to balls in space that one between them may meet it.
 //
 // Neighbours take steps of like length, so after as many steps they are about as far on their ways, and what is between them across the way is how far apart
-// they are there: the margin by which a ray may miss a ball. It is a difference between the fragments of a quad, so all rays take all steps, those too that
-// have ended. Rays end where they leave the shell between reach_radii, in which all balls lie: there neighbours end alike, whatever step it is in.
+// they are there: the margin by which a ray may miss a ball. It is a difference between the fragments of a quad, so a ray takes steps as long as any of its quad,
+// if it has ended too. Rays end where they leave the shell between reach_radii, in which all balls lie: there neighbours end alike, whatever step it is in.
 //
 // A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
 #include "common/reach_node.glsl"
@@ -30,11 +30,35 @@ vec3 across(vec3 d, vec3 along) {
     return d - dot(d, along) * along;
 }
 
-// How far the rays nearest to this one of four are from it at a spot, across the way: those in the middle between the four are the farthest, half a diagonal away,
-// and a tenth is for what is not linear. To be called by all of a quad.
-float reach_margin(Spot spot) {
-    vec3 along = normalize(spot.rate), right = dFdx(spot.x), up = dFdy(spot.x);
-    return 0.55 * max(length(across(right + up, along)), length(across(right - up, along)));
+// How far the rays nearest to this one of four are from it at a spot, across the way, r_s.
+struct Margin {
+    vec3 right, up;  // to the next rays
+    float most;      // to the farthest between the four, half a diagonal away, and a tenth for what is not linear
+    float least;     // that tenth; or all of it where directions are not known
+};
+
+// To be called by all of a quad.
+Margin reach_margin(Spot spot) {
+    vec3 along = normalize(spot.rate), right = across(dFdx(spot.x), along), up = across(dFdy(spot.x), along);
+    float half_diagonal = 0.5 * max(length(right + up), length(right - up));
+    return Margin(right, up, 1.1 * half_diagonal, 0.1 * half_diagonal);
+}
+
+// The same whatever the direction.
+Margin margin_about(float most) {
+    return Margin(vec3(0.0), vec3(0.0), most, most);
+}
+
+// By how much a ray between the four may be nearer to what lies in the direction of the unit vector `towards`: what lies across that leads away from a ball.
+float margin_towards(Margin margin, vec3 towards) {
+    return margin.least + 0.5 * (abs(dot(margin.right, towards)) + abs(dot(margin.up, towards)));
+}
+
+// Whether it holds for any of the quad, which may leave a loop together alone: differences are taken in it.
+bool any_of_quad(bool one) {
+    float row = float(one);
+    row = max(row, abs(dFdx(row)));
+    return max(row, abs(dFdy(row))) > 0.0;
 }
 
 // Slope of a way against its chord, along the unit vector `along`.
@@ -43,9 +67,9 @@ vec3 slope_against(vec3 velocity, vec3 along) {
     return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
 }
 
-// The balls to which the way from a to b comes as near as the margin, which is margin.x where it begins and margin.y where it ends. It bows from its chord by a
-// cubic, which rates by any parameter tell.
-Reached balls_near(Spot a, Spot b, vec2 margin) {
+// The balls to which the way from a to b comes as near as the margin, which is `begin` at a and `end` at b. It bows from its chord by a cubic, which rates by any
+// parameter tell.
+Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     vec3 chord = b.x - a.x;
     float size = max(length(chord), 1e-20);
     vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
@@ -57,9 +81,11 @@ Reached balls_near(Spot a, Spot b, vec2 margin) {
         vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);
         vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
-        float room = rough + mix(margin.x, margin.y, min(u + radius / size, 1.0)), far = length(away);
+        float part = min(u + radius / size, 1.0), far = length(away);
+        vec3 towards = away / max(far, 1e-20);
+        float room = rough + mix(margin_towards(begin, towards), margin_towards(end, towards), part);
         found.near |= far <= radius + room ? 1u << i : 0u;
-        found.hidden = far + room < -ball.w ? uint(i + 1) : found.hidden;
+        found.hidden = far + rough + mix(begin.most, end.most, part) < -ball.w ? uint(i + 1) : found.hidden;
     }
     return found;
 }

@@ -11,7 +11,7 @@ from blackhole_gl import listed_rays
 from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
-from blackhole_gl.scene import Scene, catalogue, presets
+from blackhole_gl.scene import Scene, SceneError, catalogue, presets
 
 FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
 RADIUS = 10.0  # r_s, of the sphere
@@ -134,3 +134,19 @@ def test_things_are_met_inside_and_outside_the_sphere_and_hide_the_disk(renderer
     off_ring = ~np.any((r > 0.99 * inner) & (r < 1.01 * outer), axis=-1)
     assert np.count_nonzero(on_ring) > 50
     assert np.all(met.fate[on_ring] == Fate.MET) and np.all(met.fate[off_ring] == plain.fate[off_ring])
+
+
+def test_media_in_a_field_shine_as_by_straight_rays_where_it_has_no_strength(renderer: Renderer) -> None:
+    """Within its sphere: beyond it rays are lines that gather nothing, and media that reach so far are refused."""
+    fog = {"media.fog.kind": "ball", "media.fog.radius": 3.0, "media.fog.x": 4.0, "media.fog.y": 0.0, "media.fog.z": 0.0}
+    field = {"hole.spin": 0.0, "rays.model": "lorenz", "rays.lorenz.strength": 0.0, "rays.field_radius": 8.0, "camera.distance": 14.0}
+    field |= {"rays.edges": 1, "sky.enabled": False, "disk.enabled": False}
+    scene = presets.load(["kerr"], fog | field)
+    found = []
+    for lensing in (True, False):
+        renderer.render(scene.with_values({"rays.lensing": lensing}), 0.0, (64, 36))
+        found.append(renderer.radiance()[..., :3].astype(float))
+    assert found[1].max() > 0.1
+    assert np.abs(found[0] - found[1]).max() < 1e-3, "half floats have 5e-4 of what is nearly 1"
+    with pytest.raises(SceneError, match=r"rays.field_radius: got 6 r_s, and media reach 7 r_s from the middle"):
+        plan(scene.with_values({"rays.field_radius": 6.0}))
