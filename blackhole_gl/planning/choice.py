@@ -329,20 +329,23 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
 @lru_cache(maxsize=64)
 def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
     """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    apart = sorted((_distance(scene, rows[0]), name) for name, rows in measurements().items() if _is_alike(scene, rows[0]))
+    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _alike(scene))
     if not apart:
         return ()
     return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])
 
 
-def _is_alike(scene: Scene, row: Measured) -> bool:
-    """Whether the measured scene of `row` is of the same field as `scene`, or both are of holes.
+def _alike(scene: Scene) -> Iterator[tuple[str, Sequence[Measured]]]:
+    """The measured scenes of the same field as `scene`, or of holes where it has none: their names and rows.
 
     A field that was not measured is like the one of its kind that is as it comes.
     """
-    if is_field(scene):
-        return row.model == scene.rays.model and row.field == (field_text(scene) if _is_as_measured(scene) else "")
-    return not catalogue.plug_ins("ray_model")[row.model].traits.field
+    models = catalogue.plug_ins("ray_model")
+    field = (field_text(scene) if _is_as_measured(scene) else "") if is_field(scene) else None
+    for name, rows in measurements().items():
+        row = rows[0]
+        if not models[row.model].traits.field if field is None else (row.model, row.field) == (scene.rays.model, field):
+            yield name, rows
 
 
 def _is_as_measured(scene: Scene) -> bool:

@@ -8,7 +8,7 @@ from functools import reduce
 import moderngl
 import numpy as np
 
-from ..glsl.declared import EdgeMark
+from ..glsl.declared import EdgeMark, Fate
 from .boxes import Box, joined
 from .classes import drawn, own_rays
 from .hit_map import HitMap
@@ -18,6 +18,7 @@ from .sorting import PixelSorting, marks_target, set_hiding
 from .target import Target
 
 _SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
+_LARGEST = np.iinfo(np.uint16).max
 _SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
 
 
@@ -33,17 +34,27 @@ class EdgePixels:
         self._own: Target | None = None
         self._classes: moderngl.Texture | None = None  # that it draws by
 
-    def find(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[np.ndarray, np.ndarray]:
+    def find(self, inputs: FrameInputs, hit_map: HitMap, *, outlines: bool = True) -> tuple[np.ndarray, np.ndarray]:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
-        medium, bool (N,). Waits for the GPU."""
+        medium, bool (N,). Waits for the GPU.
+
+        Args:
+            outlines: whether a thing's plain outline is an edge, too.
+        """
         if hit_map.classes is None:
             target, box = self._sorting.of(inputs, hit_map).marks, (0, 0, *inputs.size)
         else:
             target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
         marks = np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
         pixels = at_edges(marks)
-        seeking = beside_things(marks, pixels) if inputs.plan.meetings else np.zeros(len(pixels), bool)
-        return pixels + box[:2], seeking
+        if not inputs.plan.meetings:
+            return pixels + box[:2], np.zeros(len(pixels), bool)
+        beside = beside_things(marks, pixels)
+        if outlines:
+            return pixels + box[:2], beside
+        kept = ~beside
+        kept[beside] = ~at_plain_outlines(marks, pixels[beside])
+        return pixels[kept] + box[:2], beside[kept]
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -109,6 +120,28 @@ def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
 def _counts(marks: np.ndarray) -> np.ndarray:
     """The bits in which the mark beside has to differ."""
     return np.where(marks & EdgeMark.VEILED, _SEEN_THROUGH_VEIL, _SEEN)
+
+
+def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
+    """Which of `pixels` (N, 2) of `marks` (height, width) lie at the outline of a thing and at nothing else, bool (N,): within and beside them nothing is
+    narrower than two pixels, and nothing but what is met changes."""
+    height, width = marks.shape
+    steps = np.arange(-2, 3)
+    columns, rows = (np.clip(places[:, None] + steps, 0, side - 1) for places, side in zip(pixels.T, (width, height)))
+    near = marks[rows[:, :, None], columns[:, None, :]]
+    has_ray = _has_ray(near)
+    largest, least = _in_squares(np.maximum, np.where(has_ray, near, 0)), _in_squares(np.minimum, np.where(has_ray, near, _LARGEST))
+    wide = _in_squares(np.logical_or, largest <= least)  # in a square that is all alike
+    seen = np.where(near & 3 == Fate.MET, near - (Fate.MET - Fate.ESCAPED), near) & ~np.uint16(EdgeMark.MET << 8)
+    beside, here = seen[:, 1:-1, 1:-1], seen[:, 2:3, 2:3]
+    changes = has_ray[:, 1:-1, 1:-1] & (beside != here)
+    return np.all(wide & ~changes, axis=(1, 2))
+
+
+def _in_squares(of_two: np.ufunc, values: np.ndarray) -> np.ndarray:
+    """What `of_two` makes of each square of 2×2 in the last two axes."""
+    pairs = of_two(values[:, 1:], values[:, :-1])
+    return of_two(pairs[:, :, 1:], pairs[:, :, :-1])
 
 
 def _has_ray(marks: np.ndarray) -> np.ndarray:

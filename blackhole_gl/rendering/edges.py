@@ -6,6 +6,8 @@ squares that it changed are traced anew.
 
 from __future__ import annotations
 
+from enum import IntEnum
+
 import moderngl
 import numpy as np
 
@@ -29,6 +31,15 @@ from .temperatures import TemperatureProfile
 _MOVING_SIDE, _COARSE_SIDE, _COARSE = 2, 4, 2.5
 
 _NO_BLOCK = 0xFFFF
+
+
+class Motion(IntEnum):
+    """What moves from picture to picture, so that all of it has to be quick."""
+
+    NOTHING = 0
+    MATTER = 1
+    """Things or media, before a camera at rest."""
+    CAMERA = 2
 
 
 class EdgeRays:
@@ -56,20 +67,20 @@ class EdgeRays:
         """Column and row of each pixel with several rays, from the bottom left, int (N, 2)."""
         return np.empty((0, 2), int) if self._held is None else self._held.pixels
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, moving: bool = False, coarse: CoarseMedia | None = None) -> None:
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, motion: Motion = Motion.NOTHING, coarse: CoarseMedia | None = None) -> None:
         """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`.
 
         Args:
-            moving: fewer rays will do, as for every map that is not sharp.
+            motion: where anything moves fewer rays will do, as for every map that is not sharp; and where the camera does, one at plain outlines of things.
             coarse: media that are drawn at a resolution of their own.
         """
-        moving = moving or not hit_map.is_sharp
-        side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=moving)
+        motion = motion if hit_map.is_sharp else Motion.CAMERA
+        side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=motion > Motion.NOTHING)
         plan = inputs.plan
-        key = (hit_map.generation, side, moving, inputs.size, plan.orders, plan.disk_edge, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
+        key = (hit_map.generation, side, motion, inputs.size, plan.orders, plan.disk_edge, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
         if key != self._key:
             changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
-            self._trace(inputs, hit_map, side, changed, moving=moving)
+            self._trace(inputs, hit_map, side, changed, motion)
             self._key = key
         if self._blocks is None or self._radiance is None or self._places is None:
             return
@@ -101,16 +112,17 @@ class EdgeRays:
                 item.release()
         self._texture, self._radiance, self._places, self._blocks, self._key, self._held = None, None, None, None, None, None
 
-    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None, *, moving: bool) -> None:
+    def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None, motion: Motion) -> None:
         """Finds the pixels at edges, and traces `side`² rays of each, those that stand outside `changed` alone left out; none where that is one.
 
-        While anything is `moving`, rays of pixels within and beside which no thing is met look for none.
+        While anything moves rays of pixels within and beside which no thing is met look for none; and while the camera does, pixels at plain outlines of things
+        have one ray.
         """
         before, self._held, self._blocks = self._held, None, None
         if side == 1:
             return
-        pixels, seeking = self._find.find(inputs, hit_map)
-        if not (moving and inputs.plan.meetings):
+        pixels, seeking = self._find.find(inputs, hit_map, outlines=motion < Motion.CAMERA)
+        if not (motion and inputs.plan.meetings):
             seeking = np.ones(len(pixels), bool)
         if not len(pixels):
             return

@@ -17,7 +17,7 @@ from ..planning import plan as make_plan
 from ..scene import Scene
 from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, supersampling, views
 from .coarse_transfer import CoarseMedia
-from .edges import EdgeRays
+from .edges import EdgeRays, Motion
 from .frame_report import FrameReport
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
@@ -94,7 +94,7 @@ class Renderer:
             measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
                 further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays, or
-                sixteen where they are far coarser than those `shown`.
+                sixteen where they are far coarser than those `shown`, and one at plain outlines of things.
             glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``. Where a thing
                 has moved in it, pixels at edges have four rays.
             shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
@@ -112,7 +112,8 @@ class Renderer:
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
-        radiance = self._kept_or_shaded(rest, coarse, moving=progressive or thing_moved or coarse is not None)
+        motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or coarse is not None else Motion.NOTHING
+        radiance = self._kept_or_shaded(rest, coarse, motion)
         self._stamp(stamps, measure)
         self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -352,17 +353,17 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _kept_or_shaded(self, inputs: FrameInputs, coarse: CoarseMedia | None, *, moving: bool) -> Target:
+    def _kept_or_shaded(self, inputs: FrameInputs, coarse: CoarseMedia | None, motion: Motion) -> Target:
         """`_shaded_with_edges` of the own hit map, unless that is what the radiance holds."""
-        made = self._light_key(inputs, coarse, moving)
+        made = self._light_key(inputs, coarse, motion)
         if self._radiance is None or made is None or made != self._radiance_key:
-            self._shaded_with_edges(inputs, coarse, moving=moving)
-            self._radiance_key = self._light_key(inputs, coarse, moving)  # programs may have been compiled
+            self._shaded_with_edges(inputs, coarse, motion)
+            self._radiance_key = self._light_key(inputs, coarse, motion)  # programs may have been compiled
         return _drawn(self._radiance)
 
-    def _light_key(self, inputs: FrameInputs, coarse: CoarseMedia | None, moving: bool) -> tuple | None:
+    def _light_key(self, inputs: FrameInputs, coarse: CoarseMedia | None, motion: Motion) -> tuple | None:
         files = self._tables.pictures.stamps(chosen(inputs.plan, "sky", "disk_layer", "ray_model"), inputs.plan.scene)
-        own = self.hit_map.generation, self.hit_map.is_sharp, moving, self.programs.compiled, files
+        own = self.hit_map.generation, self.hit_map.is_sharp, motion, self.programs.compiled, files
         key = kept_light.key(inputs, *own)
         media = kept_light.key(coarse.inputs, coarse.step) if coarse is not None else ()
         return None if key is None or media is None else (key, media)
@@ -379,11 +380,11 @@ class Renderer:
             self._shade.draw(inputs, hit_map, self._radiance.frame, coarse)
         return self._radiance
 
-    def _shaded_with_edges(self, inputs: FrameInputs, coarse: CoarseMedia | None = None, *, moving: bool = False) -> Target:
+    def _shaded_with_edges(self, inputs: FrameInputs, coarse: CoarseMedia | None = None, motion: Motion = Motion.NOTHING) -> Target:
         """The same of the own hit map, with several rays in the pixels at edges."""
         radiance = self._shaded(inputs, self.hit_map, coarse)
         if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance, moving=moving, coarse=coarse)
+            self.edges.draw(inputs, self.hit_map, radiance, motion=motion, coarse=coarse)
         return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:

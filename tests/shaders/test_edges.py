@@ -256,6 +256,19 @@ def test_pixels_at_edges_have_fewer_rays_while_the_camera_moves(renderer: Render
     assert rays == [4, 16]
 
 
+def test_plain_outlines_of_things_have_one_ray_under_a_moving_camera(renderer: Renderer) -> None:
+    """The hole's edge, and what lies beside it, keep several."""
+    scene = presets.load(["kerr"], {"disk.enabled": False, "things.ball.kind": "sphere", "things.ball.x": 8.0, "things.ball.y": -4.0})
+    found = []
+    for moving in (False, True):
+        renderer.render(scene, 1.0, SMALL, progressive=moving)
+        found.append({tuple(pixel) for pixel in renderer.edges.pixels.tolist()})
+    hits = renderer.hits()
+    ball = {tuple(pixel) for pixel in np.argwhere(hits.met[..., 0, 0] >= 0)[:, ::-1].tolist()}
+    assert len(ball & found[0]) > 30 and not ball & found[1]
+    assert len(found[1]) > 100
+
+
 def test_edges_of_a_sharp_map_take_no_pass_of_their_own(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     """A moving camera has them found anew in every frame: two passes over the whole picture took a fifth of a frame's time in flat space."""
     asked, plain = [], renderer.programs.get

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.declared import EdgeMark, Fate
-from blackhole_gl.rendering.edge_pixels import at_edges, beside_things
+from blackhole_gl.rendering.edge_pixels import at_edges, at_plain_outlines, beside_things
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF
@@ -49,6 +49,36 @@ def test_pixels_beside_things_are_told(seed: int) -> None:
     shows = (marks != NO_RAY) & (marks >> 8 & 127 != 0)
     expected = [bool(shows[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].any()) for x, y in pixels]
     assert beside_things(marks, pixels).tolist() == expected and 0 < sum(expected) < marks.size
+
+
+def plain_by_pixel(marks: np.ndarray, x: int, y: int) -> bool:
+    """The rule as it is told: this pixel and those beside it lie in squares of 2×2 that are alike, and differ in what is met alone."""
+
+    def at(column: int, row: int) -> int:
+        return int(marks[min(max(row, 0), marks.shape[0] - 1), min(max(column, 0), marks.shape[1] - 1)])
+
+    def is_wide(column: int, row: int) -> bool:
+        squares = [[at(column + i + a, row + j + b) for a in (0, 1) for b in (0, 1)] for i in (-1, 0) for j in (-1, 0)]
+        return any(len({mark for mark in square if mark != NO_RAY}) <= 1 for square in squares)
+
+    def but_for_things(mark: int) -> int:
+        return (mark - Fate.MET + Fate.ESCAPED if mark & 3 == Fate.MET else mark) & ~(127 << 8)
+
+    near = [(x + i, y + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    seen = {but_for_things(at(*place)) for place in near if at(*place) != NO_RAY}
+    return seen <= {but_for_things(at(x, y))} and all(is_wide(*place) for place in near)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_plain_outlines_are_told(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    met = SKY - Fate.ESCAPED + Fate.MET | 3 << 8
+    marks = np.kron(random.choice((SKY, met, met + (1 << 8), NO_RAY, SHADOW), (5, 7), p=(0.4, 0.3, 0.1, 0.1, 0.1)), np.ones((3, 4), int)).astype(np.uint16)
+    marks = np.where(random.random(marks.shape) < 0.02, met, marks).astype(np.uint16)
+    pixels = at_edges(marks)
+    found = at_plain_outlines(marks, pixels)
+    assert found.tolist() == [plain_by_pixel(marks, *pixel) for pixel in pixels.tolist()]
+    assert 0 < np.count_nonzero(found) < len(pixels)
 
 
 def test_a_picture_of_one_kind_has_no_edges() -> None:
