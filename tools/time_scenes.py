@@ -1,17 +1,22 @@
 """What a frame of each scene takes while the camera moves, drawn as coarsely as given, then enlarged to 1280×720 and given its stars as in the window.
 
-    LP_NUM_THREADS=2 python tools/time_scenes.py [--size 640x360] [--rounds 7] [PRESET ...]
+    LP_NUM_THREADS=1 python tools/time_scenes.py [--size 640x360] [--rounds 9] [PRESET ...]
+    LP_NUM_THREADS=2 python tools/time_scenes.py                               (on an idle machine: the wall clock counts)
 
-Prints a Markdown table: of each preset (without any named: all scenes) and each --size the median of half a frame's processor time in milliseconds, which is
-about what two idle cores take, and the median of its ratio to the frame of `galaxies_through_a_screen_lens` in the same round; and how the rays are traced. The
-presets are drawn in turn, so that other work on the machine slows all of them alike.
+Prints a Markdown table of each preset (without any named: all scenes), medians of the rounds: the processor time of a frame; of it, that of a frame of next to
+no pixels, which one core has to take alone; what two idle cores would take of a frame drawn with one thread, as they share all but that; the wall clock; how
+many times the processor time is that of a frame of `galaxies_through_a_screen_lens` in the same round; and how the rays are traced. A scene's frames follow
+each other, each after one of that yardstick: a window shows one scene, and the programs of more than a few would not be kept from frame to frame.
 """
 
 from __future__ import annotations
 
 import argparse
 import time
+from dataclasses import dataclass
 from statistics import median
+
+import moderngl
 
 from blackhole_gl.app.area import Area
 from blackhole_gl.app.targets import Drawing, Targets
@@ -21,50 +26,64 @@ from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 
 SHOWN = (1280, 720)
-CORES = 2
+NEXT_TO_NONE = (64, 36)
 YARDSTICK = "galaxies_through_a_screen_lens"  # straight rays, and nothing to meet
 
 
-def moved(scene: Scene, number: int) -> Scene:
+def moved(scene: Scene, number: float) -> Scene:
     """`scene` with the camera as it is in that frame."""
     camera = scene.camera
     return scene.with_values({"camera.inclination_deg": camera.inclination_deg - 0.3 * number, "camera.azimuth_deg": camera.azimuth_deg + 0.2 * number})
 
 
-def frame_ms(renderer: Renderer, targets: Targets, scene: Scene, size: tuple[int, int], window: Target, number: int) -> tuple[float, str]:
-    """Half the processor time of a frame, and how its rays are traced."""
-    drawing = Drawing(moved(scene, number), 3.5 + number / 30.0, size, SHOWN, progressive=True, passes=False)
-    renderer.ctx.finish()
-    start = time.process_time()
-    report = targets.render_into(window.frame, Area(0, 0, *SHOWN), drawing)
-    renderer.ctx.finish()
-    return 1e3 * (time.process_time() - start) / CORES, report.method
+@dataclass(frozen=True)
+class Stage:
+    """What frames are drawn with, and how large they are drawn and shown."""
+
+    targets: Targets
+    window: Target
+    size: tuple[int, int]
+
+    @classmethod
+    def of(cls, renderer: Renderer, size: tuple[int, int], shown: tuple[int, int]) -> Stage:
+        return cls(Targets(renderer.ctx, renderer), Target.of(renderer.ctx, [renderer.ctx.texture(shown, 4)]), size)
+
+    def frame(self, ctx: moderngl.Context, scene: Scene, number: float) -> tuple[float, float, str]:
+        """Milliseconds of processor time and by the wall clock, and how its rays are traced."""
+        shown = self.window.size
+        drawing = Drawing(moved(scene, number), 3.5 + number / 30.0, self.size, shown, progressive=True, passes=False)
+        ctx.finish()
+        processor, wall = time.process_time(), time.perf_counter()
+        report = self.targets.render_into(self.window.frame, Area(0, 0, *shown), drawing)
+        ctx.finish()
+        return 1e3 * (time.process_time() - processor), 1e3 * (time.perf_counter() - wall), report.method
+
+
+def row_of(renderer: Renderer, scene: Scene, yardstick: Scene, size: tuple[int, int], rounds: int) -> str:
+    """The figures of one scene."""
+    whole, least = Stage.of(renderer, size, SHOWN), Stage.of(renderer, NEXT_TO_NONE, NEXT_TO_NONE)
+    few = [least.frame(renderer.ctx, scene, number)[0] for number in range(rounds + 2)][2:]
+    pairs = [(whole.frame(renderer.ctx, yardstick, number), whole.frame(renderer.ctx, scene, number + 0.5)) for number in range(rounds + 2)]
+    pairs = pairs[2:]  # the first compile, the second finish what the first began
+    processor, alone = median(own[0] for _, own in pairs), median(few)
+    shared = alone + 0.5 * max(processor - alone, 0.0)
+    times = median(own[0] / other[0] for other, own in pairs)
+    return f"{processor:.0f} | {alone:.0f} | {shared:.0f} | {median(own[1] for _, own in pairs):.0f} | {times:.2f} | {pairs[-1][1][2]}"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--size", action="append", help="of the picture that is drawn; may be given several times")
-    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--size", default="640x360", help="of the picture that is drawn")
+    parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("presets", nargs="*", metavar="PRESET")
     given = parser.parse_args()
-    sizes = given.size or ["640x360"]
+    width, height = map(int, given.size.split("x"))
     names = given.presets or [info.name for info in presets.available() if info.group == "scene"]
-    scenes = {name: presets.load([name]) for name in dict.fromkeys([YARDSTICK, *names])}
-    renderer = Renderer(create_headless())
-    targets, window = Targets(renderer.ctx, renderer), Target.of(renderer.ctx, [renderer.ctx.texture(SHOWN, 4)])
-    print(f"| scene | {' | '.join(f'{size} [ms] | times' for size in sizes)} | rays |\n| --- |{' ---: | ---: |' * len(sizes)} --- |")
-    found: dict[str, list[str]] = {name: [] for name in scenes}
-    methods = {}
-    for size in (tuple(map(int, text.split("x"))) for text in sizes):
-        taken: dict[str, list[float]] = {name: [] for name in scenes}
-        for number in range(given.rounds + 2):
-            for name, scene in scenes.items():
-                ms, methods[name] = frame_ms(renderer, targets, scene, size, window, number)
-                taken[name] += [ms] if number > 1 else []  # the first compile, the second finish what the first began
-        for name, frames in taken.items():
-            found[name].append(f"{median(frames):.0f} | {median(ms / yard for ms, yard in zip(frames, taken[YARDSTICK])):.2f}")
-    for name, each in found.items():
-        print(f"| `{name}` | {' | '.join(each)} | {methods[name]} |")
+    renderer, yardstick = Renderer(create_headless()), presets.load([YARDSTICK])
+    print("| scene | processor ms | of it one core's alone | two cores, ms | wall clock, ms | times | rays |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | --- |", flush=True)
+    for name in names:
+        print(f"| `{name}` | {row_of(renderer, presets.load([name]), yardstick, (width, height), given.rounds)} |", flush=True)
 
 
 if __name__ == "__main__":
