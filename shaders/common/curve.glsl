@@ -45,11 +45,6 @@ vec3 path_point(Path path) {
 float path_delay(Path path) {
     return path.delay.x / path.place.w;
 }
-
-// And by the parameter of its rates.
-float path_delay_rate(Path path) {
-    return (path.delay.y - path_delay(path) * path.rate.w) / path.place.w;
-}
 #endif
 
 // The curve at t in 0…1; its rates are by the curve's own parameter.
