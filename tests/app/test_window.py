@@ -43,7 +43,7 @@ def run(names: list[str], folder: Path, **variables: str) -> None:
     (folder / "fonts" / "broken.ttf").write_bytes(b"no font at all")
     if any(name.endswith("preset_switches_never_freeze") for name in names):
         environment["MESA_SHADER_CACHE_DIR"] = str(folder / "compiled")  # empty: as on the first day
-    done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, capture_output=True, text=True, timeout=250)
+    done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, cwd=folder, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
