@@ -142,7 +142,7 @@ class Renderer:
         Meant for a picture that `render` has drawn sharp: the first call takes the rays that it left.
 
         Returns:
-            How many rays a pixel there are now.
+            How many rays a pixel there are now; no more than the scene has at rest, whose mean is shown again.
 
         Raises:
             As `render`; ValueError: the scene asks for a view whose false colours have no mean.
@@ -150,22 +150,26 @@ class Renderer:
         if not views.has_mean(scene):
             raise ValueError(f"post.view: {scene.post.view!r} has one ray a pixel; its colours have no mean")
         self._mean.begin((scene, time, size))
-        first = self._mean.count == 0
-        middle = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene))), time, size)
-        inputs = replace(middle, offset=supersampling.place(self._mean.count))
-        if first:
-            self._trace(inputs)
-            self._views.fit(scene, self.hit_map)
-        else:
-            self._sample_map.trace(inputs)
-        radiance = self._shaded(inputs, self.hit_map if first else self._sample_map)
-        if not diagnostics.is_on(scene):
-            self.edges.draw(middle, self.hit_map, radiance)
-        mean = self._mean.add(_radiance_of(radiance).astype(np.float32))
-        self._post.draw(inputs, mean, target or self._own_picture(size).frame, (0, 0, *size))
+        inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene))), time, size)
+        if self._mean.count < scene.rays.at_rest:
+            self._add_to_the_mean(inputs)
+        self._post.draw(inputs, self._mean.texture, target or self._own_picture(size).frame, (0, 0, *size))
         if self._mean.count == scene.rays.at_rest:
             self._sample_map.release()
         return self._mean.count
+
+    def _add_to_the_mean(self, inputs: FrameInputs) -> None:
+        one = replace(inputs, offset=supersampling.place(self._mean.count))
+        first = self._mean.count == 0
+        if first:
+            self._trace(one)
+            self._views.fit(inputs.plan.scene, self.hit_map)
+        else:
+            self._sample_map.trace(one)
+        radiance = self._shaded(one, self.hit_map if first else self._sample_map)
+        if not diagnostics.is_on(inputs.plan.scene):
+            self.edges.draw(inputs, self.hit_map, radiance)
+        self._mean.add(_radiance_of(radiance).astype(np.float32))
 
     def time_trace(self, plan: Plan, size: tuple[int, int], *, progressive: bool = False) -> float:
         """Seconds by the wall clock that one trace by `plan` at `size` takes, programs compiled before."""

@@ -44,12 +44,14 @@ class Mean:
         if of != self.of:
             self.of, self.count, self._total = of, 0, None
 
-    def add(self, radiance: np.ndarray) -> moderngl.Texture:
-        """Adds `radiance`, float32 (height, width, 4), row 0 at the bottom.
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The mean as RGBA16F; that of whole pairs, as one of a pair alone would move the picture. Something has to have been added."""
+        assert self._texture is not None
+        return self._texture
 
-        Returns:
-            The mean as RGBA16F; that of whole pairs, as one of a pair alone would move the picture.
-        """
+    def add(self, radiance: np.ndarray) -> None:
+        """Adds `radiance`, float32 (height, width, 4), row 0 at the bottom."""
         self._total = radiance.copy() if self._total is None else np.add(self._total, radiance, out=self._total)
         self.count += 1
         height, width = radiance.shape[:2]
@@ -58,7 +60,6 @@ class Mean:
             self._texture = self._ctx.texture((width, height), 4, dtype="f2")
         if self.count % 2:
             self._texture.write((self._total * np.float32(1.0 / self.count)).astype(np.float16).tobytes())
-        return self._texture
 
     def release(self) -> None:
         """Gives the GL object back."""

@@ -44,6 +44,9 @@ def test_it_comes_nearer_to_a_still_with_many_rays_a_pixel(renderer: Renderer) -
     assert errors[1] == errors[0] and errors[3] == errors[2], "shown in whole pairs"
     assert errors[-1] < errors[4] < errors[2] < errors[0]
     assert errors[-1] < 0.1 * errors[0]
+    renderer.render(scene, 3.0, SIZE)
+    assert renderer.render_finer(scene, 3.0, SIZE) == supersampling.MOST_SAMPLES
+    assert np.abs(renderer.read_rgb8() - still).mean() == errors[-1], "a mean that is whole is shown again"
 
 
 def test_another_picture_begins_anew(renderer: Renderer) -> None:
