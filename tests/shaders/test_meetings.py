@@ -229,8 +229,9 @@ alone = {"media.haze.kind": "fog"}
 inside = mean(**alone, **{"media.mist.kind": "fog", "media.mist.radius": 2.0})
 outside = mean(**{"media.haze.kind": "fog", "media.haze.radius": 2.0, "media.mist.kind": "fog"})
 assert np.max(np.abs(inside - outside)) < 1e-3  # whichever is named first
-off = np.abs(inside - light(chord(20.0, 4.0) + chord(20.0, 2.0)))
-assert off.max() < 2e-3, off.max()  # one within the other: both have the whole of their ways
+way = chord(20.0, 4.0)
+off = np.abs(inside - light(way + chord(20.0, 2.0)))[(way == 0.0) | (way > 0.3)]  # but for what grazes, as above
+assert off.max() < 1e-3, off.max()  # one within the other: both have the whole of their ways
 ring = {"things.wall.kind": "annulus", "things.wall.inner_radius": 5.0, "things.wall.outer_radius": 30.0}
 before = mean(**ring, **{"camera.inclination_deg": 80.0})
 behind = mean(**ring, **alone, **{"camera.inclination_deg": 80.0})
