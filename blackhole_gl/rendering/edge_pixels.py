@@ -90,6 +90,8 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
     Args:
         marks: shaders/common/edge_marks.glsl, its first number in the low byte.
     """
+    if marks.size == 0:  # nothing of the picture has rays
+        return np.zeros((0, 2), np.intp)
     width = marks.shape[1] + 1
     flat = np.full((len(marks) + 2, width), EdgeMark.NO_RAY, np.uint16)  # about the picture there are none; one column keeps both sides apart
     flat[1:-1, 1:] = marks

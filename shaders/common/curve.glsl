@@ -47,6 +47,11 @@ float path_delay(Path path) {
 }
 #endif
 
+// A value and its rate between those of two ends, `h` apart.
+vec2 hermite(vec4 weights, vec4 slopes, float h, vec2 a, vec2 b) {
+    return vec2(weights.x * a.x + weights.z * b.x + h * (weights.y * a.y + weights.w * b.y), slopes.x * a.x + slopes.z * b.x + h * (slopes.y * a.y + slopes.w * b.y));
+}
+
 // The curve at t in 0…1; its rates are by the curve's own parameter.
 Path curve_path(Curve curve, float t) {
     vec4 weights = hermite_weights(t), slopes = hermite_slopes(t);
@@ -54,10 +59,7 @@ Path curve_path(Curve curve, float t) {
     return Path(
         weights.x * a.place + weights.z * b.place + curve.h * (weights.y * a.rate + weights.w * b.rate),
         slopes.x * a.place + slopes.z * b.place + curve.h * (slopes.y * a.rate + slopes.w * b.rate),
-        vec2(weights.x * a.twist.x + weights.z * b.twist.x + curve.h * (weights.y * a.twist.y + weights.w * b.twist.y),
-             slopes.x * a.twist.x + slopes.z * b.twist.x + curve.h * (slopes.y * a.twist.y + slopes.w * b.twist.y))
-        AND_TIME(vec2(weights.x * a.delay.x + weights.z * b.delay.x + curve.h * (weights.y * a.delay.y + weights.w * b.delay.y),
-                      slopes.x * a.delay.x + slopes.z * b.delay.x + curve.h * (slopes.y * a.delay.y + slopes.w * b.delay.y))));
+        hermite(weights, slopes, curve.h, a.twist, b.twist) AND_TIME(hermite(weights, slopes, curve.h, a.delay, b.delay)));
 }
 
 // How fast it moves, r_s by the parameter of its rates.

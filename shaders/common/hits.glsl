@@ -1,6 +1,7 @@
 // What became of a ray. Directions stay vectors and crossings stay points: no angle is ever stored. How it lies in texels: hit_texels.glsl.
 
 // What there is of times where light takes some (rays.light_travel): AND_TIME(x) stands for one more argument or member, or for none.
+// All of it stands on one line: of a macro's arguments on two Mesa counts one, and a mistake below would be told one line too high.
 #if RAYS_LIGHT_TRAVEL
 #define AND_TIME(t) , t
 #else

@@ -81,5 +81,13 @@ def test_plain_outlines_are_told(seed: int) -> None:
     assert 0 < np.count_nonzero(found) < len(pixels)
 
 
+@pytest.mark.parametrize("shape", [(0, 0), (0, 5), (5, 0)])
+def test_where_nothing_has_rays_there_are_no_edges(shape: tuple[int, int]) -> None:
+    """A camera that looks away from all that bends light."""
+    marks = np.zeros(shape, np.uint16)
+    found = at_edges(marks)
+    assert found.shape == (0, 2) and beside_things(marks, found).shape == (0,)
+
+
 def test_a_picture_of_one_kind_has_no_edges() -> None:
     assert at_edges(np.full((9, 16), SKY, np.uint16)).shape == (0, 2)

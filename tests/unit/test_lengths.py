@@ -74,7 +74,7 @@ def test_infinity_and_a_unit_that_is_not_known() -> None:
 
 
 def test_tables_have_one_unit_where_that_is_asked_for(renderer: Renderer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Radii are twice as many M, momenta and places on the screen half as many r_s; all else is what it was."""
+    """Radii and delays are twice as many M, momenta and places on the screen half as many r_s; all else is what it was."""
     monkeypatch.setattr(research, "renderer_by", lambda backend: renderer)
     rays = {"M": "alpha,beta\n-7,3\n9,1\n", "r_s": "alpha,beta\n-3.5,1.5\n4.5,0.5\n"}
     tables = {}
@@ -86,7 +86,7 @@ def test_tables_have_one_unit_where_that_is_asked_for(renderer: Renderer, tmp_pa
         for name, value in usual.items():
             if name in ("alpha", "beta", "fate") or value == "":  # the list's own, and what has no unit
                 continue
-            doubled, halved = (2.0 if re.fullmatch(r"r\d", name) else 1.0), (0.5 if re.fullmatch(r"lambda|k_theta\d", name) else 1.0)
+            doubled, halved = (2.0 if re.fullmatch(r"[rt]\d", name) else 1.0), (0.5 if re.fullmatch(r"lambda|k_theta\d", name) else 1.0)
             # 9 digits are written.
             assert float(in_m[name]) == pytest.approx(doubled * float(value), rel=1e-8), name
             assert float(in_rs[name]) == pytest.approx(halved * float(value), rel=1e-8), name
