@@ -7,6 +7,7 @@ import pytest
 
 from blackhole_gl.physics import relativity
 from blackhole_gl.reference import ReferenceHits, models, trace, twin_of
+from tests.sampled import sampled
 
 TILTED = [(1.0, 0.0, 0.3), (0.2, 0.9, -0.5), (0.0, 1.0, 0.0)]
 
@@ -49,7 +50,8 @@ def test_flat_space_meets_each_plane_where_geometry_says():
     np.testing.assert_allclose(found.crossings.phi[0, 2:, 0], [0.5 * np.pi, 0.75 * np.pi], rtol=1e-14)
 
 
-@pytest.mark.parametrize("model", ["schwarzschild", "schwarzschild_binet", "post_newtonian", "weak_field", "kerr"])
+@pytest.mark.parametrize("model", sampled(["schwarzschild", "schwarzschild_binet", "post_newtonian", "weak_field", "kerr"],
+                                          ["schwarzschild", "post_newtonian", "weak_field", "kerr"]))
 def test_without_spin_a_tilted_plane_is_the_equator_of_a_turned_camera(model):
     """Turn camera and plane together about the y axis, so that the plane is z = 0."""
     tilt = np.radians(25.0)
@@ -65,8 +67,9 @@ def test_without_spin_a_tilted_plane_is_the_equator_of_a_turned_camera(model):
     assert np.sum(near) > 200
 
 
-@pytest.mark.parametrize("spin, distance, inclination", [(0.9, 10.0, 60.0), (-0.9, 2.0, 90.0), (0.5, 200.0, 20.0),
-                                                        *(pytest.param(*view, marks=pytest.mark.slow) for view in ((0.998, 2.0, 90.0), (0.9999, 3.0, 100.0)))])
+@pytest.mark.parametrize("spin, distance, inclination", sampled(
+    [(0.9, 10.0, 60.0), (-0.9, 2.0, 90.0), (0.5, 200.0, 20.0), (0.998, 2.0, 90.0), (0.9999, 3.0, 100.0)], [(0.9, 10.0, 60.0), (-0.9, 2.0, 90.0)],
+))
 def test_both_forms_of_kerr_meet_the_same_planes_in_the_same_order(spin, distance, inclination):
     """Near the horizon dragging takes a ray round many times, by steps of other lengths in the two forms: none may be overlooked."""
     n = rays(80, distance)
@@ -108,7 +111,7 @@ def test_further_planes_leave_the_equator_as_it_is():
     np.testing.assert_array_equal(again.crossings.r[:, 1], alone.crossing_r)
 
 
-@pytest.mark.parametrize("azimuth", [25.0, 30.0, 77.0])
+@pytest.mark.parametrize("azimuth", sampled([25.0, 30.0, 77.0], [30.0]))
 def test_a_camera_in_a_tilted_plane_does_not_count_its_own_place(azimuth):
     """Where rounding alone says on which side of the plane it is."""
     normal = (-np.sin(np.radians(azimuth)), np.cos(np.radians(azimuth)), 0.0)

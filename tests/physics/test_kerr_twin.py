@@ -11,6 +11,7 @@ from blackhole_gl.reference import CAPTURED, ESCAPED, UNRESOLVED, trace
 from blackhole_gl.reference.integrator import march
 from blackhole_gl.reference.kerr_schild_form import CHART, ENERGY, L_Z, P_N, KerrSchildSystem, W
 from blackhole_gl.reference.observers import Place, momenta
+from tests.sampled import sampled
 
 
 def random_directions(count: int, seed: int, inward: float = 4.0) -> np.ndarray:
@@ -67,9 +68,11 @@ def test_conserved_quantities_along_the_ray(spin):
     assert 0 < drift.max() < 1e-9
 
 
-@pytest.mark.parametrize("spin, inclination, distance, observer", [
-    (0.5, 60, 10, "static"), (0.9, 90, 100, "static"), (-0.998, 17, 3, "zamo"), (0.999, 85, 1.2, "zamo"), (0.9, 0, 4, "static"),
-    (0.998, 90, 0.85, "zamo"), (1e-8, 45, 10, "static"), (0.9, 90, 1e4, "static")])
+EDGES = [(0.5, 60, 10, "static"), (0.9, 90, 100, "static"), (-0.998, 17, 3, "zamo"), (0.999, 85, 1.2, "zamo"), (0.9, 0, 4, "static"),
+         (0.998, 90, 0.85, "zamo"), (1e-8, 45, 10, "static"), (0.9, 90, 1e4, "static")]
+
+
+@pytest.mark.parametrize("spin, inclination, distance, observer", sampled(EDGES, [edge for edge in EDGES if edge[0] != 0.999]))
 def test_shadow_edge_is_bardeens_curve_through_the_tetrad(spin, inclination, distance, observer):
     chi = np.linspace(0, 2 * np.pi, 7, endpoint=False) + 0.1
     theta = np.radians(inclination)
@@ -82,16 +85,16 @@ def test_shadow_edge_is_bardeens_curve_through_the_tetrad(spin, inclination, dis
     np.testing.assert_array_equal(hits.fate, np.repeat([CAPTURED, ESCAPED], chi.size))
 
 
-def test_shadow_edge_at_infinity_is_bardeens_curve():
-    for spin, inclination in ((0.9, 75), (-0.998, 90), (0.5, 1)):
-        alpha, beta = relativity.critical_curve(spin, np.radians(inclination), 8)
-        middle = 0.5 * (alpha.min() + alpha.max())
-        screen = [np.stack([middle + side * (alpha - middle), side * beta], axis=1) for side in (1 - 1e-8, 1 + 1e-8)]
-        hits = trace("kerr", spin=spin, distance=np.inf, inclination_deg=inclination, screen=np.concatenate(screen))
-        np.testing.assert_array_equal(hits.fate, np.repeat([CAPTURED, ESCAPED], 8))
+@pytest.mark.parametrize("spin, inclination", sampled([(0.9, 75), (-0.998, 90), (0.5, 1)], [(-0.998, 90)]))
+def test_shadow_edge_at_infinity_is_bardeens_curve(spin, inclination):
+    alpha, beta = relativity.critical_curve(spin, np.radians(inclination), 8)
+    middle = 0.5 * (alpha.min() + alpha.max())
+    screen = [np.stack([middle + side * (alpha - middle), side * beta], axis=1) for side in (1 - 1e-8, 1 + 1e-8)]
+    hits = trace("kerr", spin=spin, distance=np.inf, inclination_deg=inclination, screen=np.concatenate(screen))
+    np.testing.assert_array_equal(hits.fate, np.repeat([CAPTURED, ESCAPED], 8))
 
 
-@pytest.mark.parametrize("spin", [0.3, -0.95, *(pytest.param(spin, marks=pytest.mark.slow) for spin in (0.0, 0.9999))])
+@pytest.mark.parametrize("spin", sampled([0.3, -0.95, 0.0, 0.9999], [-0.95]))
 def test_every_ray_has_its_exact_fate_and_nothing_is_nan(spin):
     """Everywhere: poles, plane, ergosphere, just above the horizon, far away; radial and tangential rays among them."""
     special = np.array([[-1, 0, 0], [1, 0, 0], [0, 0, 1], [0, 0, -1], [0, 1, 0], [0, -1, 0], [-0.6, 0, 0.8], [0.6, 0, -0.8]], float)

@@ -9,6 +9,7 @@ from blackhole_gl.physics.torus import Torus
 from blackhole_gl.reference import CAPTURED, ESCAPED, transfer
 from blackhole_gl.reference.media import AnalyticPlasma, Ball, Doughnut, Slab
 from blackhole_gl.reference.observers import Place
+from tests.sampled import sampled
 
 # Gold et al. 2020: hole of 4.063e6 suns at 7778 pc, 230 GHz, 60 degrees, 30 x 30 M; GM/c^2 and the distance in cm.
 LENGTH = 1.32712440018e26 * 4.063e6 / 2.99792458e10**2
@@ -98,11 +99,11 @@ MEDIA = {
 }
 
 
-@pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
-def test_two_forms_of_kerr_gather_the_same(medium):
+@pytest.mark.parametrize("name", sampled(MEDIA, ["plasma", "ball"]))
+def test_two_forms_of_kerr_gather_the_same(name):
     rays = towards([-1.0, 0.02, 0.0], 40, 0.25)
     given = dict(spin=0.9, distance=12.0, inclination_deg=75.0, azimuth_deg=10.0, directions=rays)
-    first, second = (transfer.gather(model, medium, **given) for model in ("kerr", "kerr_schild"))
+    first, second = (transfer.gather(model, MEDIA[name], **given) for model in ("kerr", "kerr_schild"))
     assert np.count_nonzero(first.intensity > 0.01) > 10
     # Rays that wind about the hole part as e^(pi n): what 1e-10 a step has become.
     np.testing.assert_allclose(first.intensity, second.intensity, atol=1e-7)

@@ -51,6 +51,16 @@ def complaints(texts: Sequence[tuple[str, str]], folder: Path) -> list[str]:
 
 
 @pytest.mark.glslang
+def test_a_third_of_the_programs_passes_the_reference_compiler(programs: Texts, tmp_path: Path) -> None:
+    """Of every shader file every third text, and its first."""
+    by_file: dict[str, dict[tuple[str, str], str]] = {}
+    for pair, name in programs.items():
+        by_file.setdefault(name.partition(" for ")[0], {})[pair] = name
+    check(dict(item for texts in by_file.values() for item in list(texts.items())[::3]), tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.glslang
 def test_every_program_passes_the_reference_compiler(programs: Texts, tmp_path: Path) -> None:
     check(programs, tmp_path)
 

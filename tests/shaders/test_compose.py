@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
 import moderngl
@@ -150,17 +150,22 @@ def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPat
     assert compiled == []
 
 
-def combinations(model: str) -> Iterator[tuple[str, str]]:
-    """Integrators and step controls to try with `model`."""
-    if catalogue.plug_ins("ray_model")[model].traits.kind == "closed":
-        yield "rk4", "radius"
-    else:
-        yield from pairs(model)
-
-
 @pytest.mark.parametrize("model", catalogue.keys("ray_model"))
+def test_every_model_compiles_and_gives_every_ray_a_fate(renderer: Renderer, model: str) -> None:
+    """By its own method. Each part is tried with every model of a hole by `test_method_pairs.py`, and here with one model of what is none."""
+    own = "rk4", catalogue.plug_ins("ray_model")[model].traits.step_control or "radius"
+    check_fates(renderer, model, pairs(model) if model == "lorenz" else [own])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.kind != "closed"])
 def test_combinations_that_fit_compile_and_give_every_ray_a_fate(renderer: Renderer, model: str) -> None:
-    for integrator, control in combinations(model):
+    check_fates(renderer, model, pairs(model, every_pair=True))
+
+
+def check_fates(renderer: Renderer, model: str, methods: Iterable[tuple[str, str]]) -> None:
+    """No pixel's ray is left without one, and there are rays of each."""
+    for integrator, control in methods:
         changes = {"rays.model": model, "rays.integrator": integrator, "rays.step_control": control, "rays.max_steps": 4000, "camera.fov_deg": 15.0}
         renderer.render(SCENE.with_values(changes), 0.0, (24, 14))
         hits = renderer.hits()

@@ -13,6 +13,7 @@ from blackhole_gl.planning import choice
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, presets
+from tests.sampled import sampled
 
 WIDTH, HEIGHT = 60, 34
 # k_r vanishes at a ray's turning point: where it is this small in units of E, rounding of float32 decides on its sign.
@@ -32,8 +33,12 @@ def _rays(scene: Scene) -> np.ndarray:
 MODELS = [("kerr", 0.9), ("kerr_schild", -0.7), ("schwarzschild", 0.0), ("schwarzschild_binet", 0.0), ("schwarzschild_table", 0.0)]
 
 
-@pytest.mark.parametrize("model, spin", MODELS)
-@pytest.mark.parametrize("distance, inclination", [(10.0, 80.0), (2.5, 60.0)])
+FAR, NEAR = (10.0, 80.0), (2.5, 60.0)
+DEAR = [("kerr", 0.9, *NEAR), ("schwarzschild_binet", 0.0, *FAR)]  # their twins take seconds
+CASES = [(*model, *camera) for model in MODELS for camera in (FAR, NEAR)]
+
+
+@pytest.mark.parametrize("model, spin, distance, inclination", sampled(CASES, [case for case in CASES if case not in DEAR]))
 def test_the_sense_is_the_sign_of_the_twins_momentum(renderer: Renderer, model: str, spin: float, distance: float, inclination: float) -> None:
     changes = {"rays.model": model, "hole.spin": spin, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.fov_deg": 100.0}
     scene = presets.load(["kerr", "reference"], changes | {"camera.observer": "zamo"})

@@ -16,6 +16,7 @@ from blackhole_gl.physics.shear import RENEWAL_PERIOD, shear_phases
 from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, met, presets
+from tests.sampled import sampled
 from tests.shaders.harness import Piece
 from tests.shaders.sampling import random_rays
 
@@ -32,7 +33,7 @@ SCENES = [
 ]
 
 
-@pytest.mark.parametrize("model, spin, inclination, distance, observer", SCENES)
+@pytest.mark.parametrize("model, spin, inclination, distance, observer", sampled(SCENES, SCENES[1:]))
 def test_crossings_are_as_late_as_the_twin_has_them(
     renderer: Renderer, model: str, spin: float, inclination: float, distance: float, observer: str
 ) -> None:

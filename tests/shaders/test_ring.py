@@ -11,17 +11,10 @@ from scipy import ndimage, optimize, special
 from blackhole_gl.measure import ring
 from blackhole_gl.physics import lensed_circles
 from blackhole_gl.physics.observer import observe
-from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
+from tests.sampled import sampled
 
 FWHM = math.sqrt(8.0 * math.log(2.0))
-
-
-@pytest.fixture(scope="module")
-def renderer(ctx):
-    made = Renderer(ctx)
-    yield made
-    made.release()
 
 
 def made_up(radius: float, sigma: float, uneven: float = 0.0, towards_deg: float = 0.0, centre=(210.3, 181.7), background=0.0, size=(400, 360)) -> np.ndarray:
@@ -32,8 +25,13 @@ def made_up(radius: float, sigma: float, uneven: float = 0.0, towards_deg: float
     return background + (1.0 + uneven * np.cos(angle)) * np.exp(-0.5 * ((np.hypot(right, up) - radius) / sigma) ** 2)
 
 
-@pytest.mark.parametrize("radius, sigma", [(60.0, 3.0), (45.0, 8.0), (90.0, 12.0)])
-@pytest.mark.parametrize("uneven, towards_deg", [(0.0, 0.0), (0.4, 200.0), (0.8, 310.0)])
+SIZES = [(60.0, 3.0), (45.0, 8.0), (90.0, 12.0)]
+SHARES = [(0.0, 0.0), (0.4, 200.0), (0.8, 310.0)]
+
+
+@pytest.mark.parametrize("radius, sigma, uneven, towards_deg", sampled(
+    [(*size, *share) for size in SIZES for share in SHARES], [(*size, *share) for size, share in zip(SIZES, SHARES, strict=True)],
+))
 def test_a_gaussian_ring(radius: float, sigma: float, uneven: float, towards_deg: float) -> None:
     """Reading linearly between pixels flattens a peak of σ = 3 px by 1/36 px² of its square: 0.3 % of the width."""
     found = ring.ring_of(made_up(radius, sigma, uneven, towards_deg))
@@ -80,7 +78,7 @@ def test_where_there_is_no_ring_there_is_none(light: np.ndarray) -> None:
     assert ring.ring_of(light) is None
 
 
-@pytest.mark.parametrize("spin, inclination", [(0.0, 0.0), (0.94, 17.0)])
+@pytest.mark.parametrize("spin, inclination", sampled([(0.0, 0.0), (0.94, 17.0)], [(0.94, 17.0)]))
 def test_the_second_ring_is_as_wide_as_the_critical_curve(renderer, spin: float, inclination: float) -> None:
     """1 %: light of the second ring has turned round the hole once and a quarter, and passes outside the curve by e^(−5π/2) times some tens."""
     view = {"hole.spin": spin, "camera.distance": math.inf, "camera.field_m": 16.0, "camera.inclination_deg": inclination}

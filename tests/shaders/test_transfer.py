@@ -12,6 +12,7 @@ from blackhole_gl.measure import flux
 from blackhole_gl.reference import media, transfer
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, SceneError, presets
+from tests.sampled import sampled
 
 # Gold et al. 2020, as public codes list them, in Jy; their absolute values differ by half a percent to a percent, and so do the two figures that follow.
 GOLD = np.array([1.6465, 1.4360, 0.4418, 0.2710, 0.0255])
@@ -48,7 +49,7 @@ def test_fluxes_are_those_of_the_code_comparison(renderer: Renderer) -> None:
     np.testing.assert_allclose(np.array(fluxes[1:]) / fluxes[0], RATIOS, rtol=0.01)
 
 
-@pytest.mark.parametrize("name", ["gold_3", "gold_5", *(pytest.param(name, marks=pytest.mark.slow) for name in ("gold_1", "gold_2", "gold_4"))])
+@pytest.mark.parametrize("name", sampled([f"gold_{test}" for test in range(1, 6)], ["gold_3"]))
 def test_a_flux_has_converged(renderer: Renderer, name: str) -> None:
     """Ten times below what codes differ by."""
     found = flux.measured(renderer, presets.load([name]), 0.0, (64, 64), unsaid)
@@ -56,16 +57,18 @@ def test_a_flux_has_converged(renderer: Renderer, name: str) -> None:
     assert str(found).splitlines()[0] == f"flux = {found.value:.5g} Jy"
 
 
-@pytest.mark.parametrize("test", range(1, 6))
+@pytest.mark.parametrize("test", sampled(range(1, 6), [2, 4]))
 def test_pixels_are_those_of_the_twin(renderer: Renderer, test: int) -> None:
-    """Of the code comparison, as marched, not rounded to half floats. 0.15 % of the brightest: light of the first two diverges at the horizon."""
+    """Of the code comparison, as marched, not rounded to half floats; the twin in the form of Kerr that costs less.
+
+    0.15 % of the brightest: light of the first two diverges at the horizon."""
     scene = presets.load([f"gold_{test}"])
     seen = gathered(renderer, scene, (128, 128))[..., 0]
     row, column = np.random.default_rng(test).integers(0, 128, (2, 120))
     screen = (np.stack([column, row], axis=-1) + 0.5) * 30.0 / 128 - 15.0
     values = {key: value for key, value in scene.media["plasma"].values.items() if key not in ("radius",)}
     plasma = media.AnalyticPlasma(**values, reach=25.0)
-    exact = transfer.gather("kerr", plasma, spin=scene.hole.spin, distance=math.inf, inclination_deg=60.0, screen=screen, tolerance=1e-7, unit=1.0)
+    exact = transfer.gather("kerr_schild", plasma, spin=scene.hole.spin, distance=math.inf, inclination_deg=60.0, screen=screen, tolerance=1e-7, unit=1.0)
     off = np.abs(seen[row, column] - exact.intensity[:, 0]) / seen.max()
     print(f"gold_{test}: 99 % within {np.quantile(off, 0.99):.1e}, worst {off.max():.1e} of the peak")
     assert np.quantile(off, 0.99) < 1.5e-3
@@ -186,7 +189,7 @@ def test_nothing_of_it_is_compiled_without_media(renderer: Renderer) -> None:
     assert renderer.transfer.marches == marched
 
 
-@pytest.mark.parametrize("model", ["kerr", "kerr_schild", "schwarzschild"])
+@pytest.mark.parametrize("model", sampled(["kerr", "kerr_schild", "schwarzschild"], ["kerr", "schwarzschild"]))
 def test_rays_from_infinity_that_fall_in_meet_what_is_round_the_hole(renderer: Renderer, model: str) -> None:
     """Their first step leads from infinity to the hole, and the medium's surface lies in a hundredth of it."""
     plasma = {"media.p.kind": "analytic_plasma", "media.p.radius": 25.0}

@@ -15,6 +15,7 @@ from blackhole_gl.rendering.frame import Renderer
 from studies import stability, stability_page
 from studies.stability_cases import CASES, Topic, impact
 from studies.stability_viewer import VIEWER_CASES
+from tests.sampled import sampled
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = (ROOT / "docs" / "data" / "stability.csv").read_text(encoding="utf-8")
@@ -88,7 +89,11 @@ def test_other_integrators_do_what_the_page_says(renderer: Renderer, model: str,
     assert [line for method in own if (line := _difference(renderer, case, method))] == [], RENEW
 
 
-@pytest.mark.parametrize("case", VIEWER_CASES, ids=lambda case: case.key)
+# Every switch and choice is drawn by test_compose.py; here again, turned while a picture stands.
+QUICK_CASES = [case for case in VIEWER_CASES if case.key != "switches"]
+
+
+@pytest.mark.parametrize("case", sampled(VIEWER_CASES, QUICK_CASES), ids=lambda case: case.key)
 def test_the_viewer_does_what_the_page_says(renderer: Renderer, case) -> None:
     judgement = case.run(renderer, False)
     assert judgement.verdict == STORED[case.key, stability_page.VIEWER].verdict, judgement
