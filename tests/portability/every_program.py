@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
@@ -70,9 +71,17 @@ class Recorder:
         return NoGL()
 
 
-def collect() -> Mapping[tuple[str, str], str]:
-    """(vertex text, fragment text) → path and scene of every program; of methods those of `pairs`."""
-    return _composed(itertools.chain(_of_scenes(), _of_instances(), _of_views(), _of_methods(every_pair=False)))
+def collect(*, every: int = 1) -> Mapping[tuple[str, str], str]:
+    """(vertex text, fragment text) → path and scene of every program, or of each path's first and then one in `every`; of methods those of `pairs`."""
+    return _composed(_one_in(every, itertools.chain(_of_scenes(), _of_instances(), _of_views(), _of_methods(every_pair=False))))
+
+
+def _one_in(every: int, wanted: Iterable[Wanted]) -> Iterator[Wanted]:
+    asked: Counter[str] = Counter()
+    for program in wanted:
+        if asked[program[0]] % every == 0:
+            yield program
+        asked[program[0]] += 1
 
 
 def collect_methods() -> Mapping[tuple[str, str], str]:

@@ -18,6 +18,7 @@ from blackhole_gl.glsl.live import live_words
 from blackhole_gl.rendering import uniforms
 from blackhole_gl.resources import shaders_dir
 from tests.portability.every_program import collect, collect_methods
+from tests.sampled import sampled
 
 COMPILER = "glslangValidator"
 MISSING = f"{COMPILER} is missing. Install it, then run the test again: sudo apt-get install -y --no-install-recommends glslang-tools"
@@ -25,9 +26,10 @@ MISSING = f"{COMPILER} is missing. Install it, then run the test again: sudo apt
 Texts = Mapping[tuple[str, str], str]
 
 
-@pytest.fixture(scope="module")
-def programs() -> Texts:
-    return collect()
+@pytest.fixture(scope="module", params=sampled([3, 1], [3]), ids=lambda every: "all" if every == 1 else f"one in {every}")
+def programs(request: pytest.FixtureRequest) -> Texts:
+    """Of each shader file one in so many of what it is asked for, which is twenty seconds of composing when it is all."""
+    return collect(every=request.param)
 
 
 def complaints(texts: Sequence[tuple[str, str]], folder: Path) -> list[str]:
@@ -50,16 +52,6 @@ def complaints(texts: Sequence[tuple[str, str]], folder: Path) -> list[str]:
     return found
 
 
-@pytest.mark.glslang
-def test_a_third_of_the_programs_passes_the_reference_compiler(programs: Texts, tmp_path: Path) -> None:
-    """Of every shader file every third text, and its first."""
-    by_file: dict[str, dict[tuple[str, str], str]] = {}
-    for pair, name in programs.items():
-        by_file.setdefault(name.partition(" for ")[0], {})[pair] = name
-    check(dict(item for texts in by_file.values() for item in list(texts.items())[::3]), tmp_path)
-
-
-@pytest.mark.slow
 @pytest.mark.glslang
 def test_every_program_passes_the_reference_compiler(programs: Texts, tmp_path: Path) -> None:
     check(programs, tmp_path)
