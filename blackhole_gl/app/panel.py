@@ -27,7 +27,19 @@ _TITLES = {
     "sky": "Sky", "post": "Image", "playback": "Playback",
 }  # fmt: skip
 _ART = ("Art", "What makes a picture and no physics names: as you like it.")
-_OF_MOTION = frozenset(f"camera.{name}" for name in ("velocity_right", "velocity_up", "velocity_forward", "aberration", "doppler_colour", "beaming"))
+_OF_AN_OPTION = {
+    "camera.fov_deg": ("camera.projection", "perspective"),
+    "camera.eye_separation": ("camera.projection", "stereo"),
+    "camera.dome_tilt_deg": ("camera.projection", "dome"),
+    "camera.fall_from": ("camera.observer", "fall"),
+    "post.beam_uas": ("post.beam", True),
+    "post.key_light": ("post.exposure_mode", "automatic"),
+}
+"""What has a bearing on the picture with one option of a choice alone → the choice and the option."""
+
+_NEAR_BY = frozenset(f"camera.{name}" for name in ("fov_deg", "velocity_right", "velocity_up", "velocity_forward", "aberration", "doppler_colour", "beaming"))
+"""What a camera has that is not infinitely far."""
+
 _OPEN_AT_START = ("hole", "camera", "disk")
 
 
@@ -193,20 +205,17 @@ def _plug_in_by_key() -> Mapping[str, catalogue.PlugIn]:
 
 
 def _is_active(item: Field, scene: Scene) -> bool:
-    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of one that falls, of a hole or a field, of automatic exposure, and those
-    of plug-ins that take part."""
-    if item.key in ("camera.fov_deg", "camera.field_m"):
-        return math.isinf(scene.camera.distance) == (item.key == "camera.field_m")
-    if item.key in _OF_MOTION:
-        return not math.isinf(scene.camera.distance)
-    if item.key == "camera.fall_from":
-        return scene.camera.observer == "fall"
+    """Whether `item` has any bearing on `scene`: those of a near or a far camera, of a hole or a field, of an option that is chosen, and those of plug-ins
+    that take part."""
+    if item.key == "camera.field_m":
+        return math.isinf(scene.camera.distance)
+    if item.key in _NEAR_BY and math.isinf(scene.camera.distance):
+        return False
+    if item.key in _OF_AN_OPTION:
+        choice, option = _OF_AN_OPTION[item.key]
+        return scene.get(choice) == option
     if item.key.startswith(("hole.", "rays.field_")):
         return is_field(scene) != item.key.startswith("hole.")
-    if item.key == "post.beam_uas":
-        return scene.post.beam
-    if item.key == "post.key_light":
-        return scene.post.exposure_mode == "automatic"
     parts = item.key.split(".")
     if len(parts) < 3:
         return True

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 import blackhole_gl
+from blackhole_gl.app.panel import Panel
 from blackhole_gl.resources import shaders_dir
-from blackhole_gl.scene import fields
+from blackhole_gl.scene import Scene, fields
 
 NUMBERS = [key for key, item in fields().items() if key.count(".") == 1 and item.kind in ("float", "int")]
 
@@ -23,3 +24,21 @@ def sources() -> str:
 @pytest.mark.parametrize("key", NUMBERS)
 def test_a_number_is_read(key: str) -> None:
     assert re.search(rf"\b{key.replace('.', '[._]')}\b", sources()) is not None
+
+
+@pytest.mark.parametrize(
+    "key, choice, option",
+    [
+        ("camera.fov_deg", "camera.projection", "perspective"),
+        ("camera.eye_separation", "camera.projection", "stereo"),
+        ("camera.dome_tilt_deg", "camera.projection", "dome"),
+        ("camera.fall_from", "camera.observer", "fall"),
+        ("post.beam_uas", "post.beam", True),
+        ("post.key_light", "post.exposure_mode", "automatic"),
+    ],
+)
+def test_the_panel_has_a_row_where_it_moves_something(key: str, choice: str, option: object) -> None:
+    panel, item = Panel(), fields()[choice]
+    for chosen in item.options or (False, True):
+        rows = {row.key for row in panel.shown_fields(Scene().with_values({choice: chosen}))}
+        assert (key in rows) == (chosen == option), chosen
