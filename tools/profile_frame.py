@@ -1,6 +1,6 @@
 """What every draw of a frame costs: processor time and wall clock, still and moving, by shader.
 
-    python tools/profile_frame.py [--size 1280x720] [--rounds 12] [--preset kerr]
+    python tools/profile_frame.py [--size 1280x720] [--rounds 12] [--preset kerr] [--set hole.spin=0]
 
 Each draw is waited for, so the sum is a little more than a frame of its own; what is left of the frame is Python, copies and clears. The least of the
 rounds counts: what else a machine does can only lengthen a draw.
@@ -55,9 +55,10 @@ def main() -> None:
     parser.add_argument("--size", default="1280x720")
     parser.add_argument("--rounds", type=int, default=12)
     parser.add_argument("--preset", action="append")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     given = parser.parse_args()
     size = tuple(int(side) for side in given.size.split("x"))
-    scene = presets.load(given.preset or ["kerr"])
+    scene = presets.load(given.preset or ["kerr"], dict(pair.split("=", 1) for pair in given.set))
     renderer = frame.Renderer(create_headless())
     profile = Profile(renderer)
     for motion in ("still", "moving"):

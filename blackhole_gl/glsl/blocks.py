@@ -34,17 +34,21 @@ class Block:
     members: tuple[tuple[str, str], ...]
 
     @cached_property
+    def _offsets(self) -> tuple[int, ...]:
+        """Of each member, in bytes, and of the block's end."""
+        offsets, end = [], 0
+        for _, kind in self.members:
+            alignment, size, _, _ = _LAYOUT[kind]
+            offsets.append(-(-end // alignment) * alignment)
+            end = offsets[-1] + size
+        return *offsets, max(16, -(-end // 16) * 16)
+
+    @cached_property
     def dtype(self) -> np.dtype:
         """The structured dtype of one block, padded to 16 bytes as std140 asks."""
-        names, formats, offsets, end = [], [], [], 0
-        for name, kind in self.members:
-            alignment, size, base, shape = _LAYOUT[kind]
-            start = -(-end // alignment) * alignment
-            names.append(name)
-            formats.append((base, shape))
-            offsets.append(start)
-            end = start + size
-        return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": max(16, -(-end // 16) * 16)})
+        *offsets, end = self._offsets
+        formats = [_LAYOUT[kind][2:] for _, kind in self.members]
+        return np.dtype({"names": [name for name, _ in self.members], "formats": formats, "offsets": offsets, "itemsize": end})
 
     @property
     def glsl(self) -> str:
@@ -57,9 +61,30 @@ class Block:
 
         Raises:
             KeyError: `values` lacks a member.
+            ValueError: a vector has more or fewer numbers than its member.
         """
-        record = np.zeros((), self.dtype)
+        numbers: list[float] = []
+        whole: list[int] = []
         for name, kind in self.members:
-            value = np.asarray(values[name])
-            record[name] = value.T if kind == "mat4" else value
-        return record.tobytes()
+            value = values[name]
+            if kind == "float":
+                numbers.append(value)
+            elif kind == "int":
+                whole.append(value)
+            else:
+                numbers.extend(np.asarray(value).T.ravel().tolist() if kind == "mat4" else value)
+        of_numbers, of_whole = self._words
+        words = np.zeros(self._offsets[-1] // 4, np.float32)
+        words[of_numbers] = numbers
+        words.view(np.int32)[of_whole] = whole
+        return words.tobytes()
+
+    @cached_property
+    def _words(self) -> tuple[np.ndarray, np.ndarray]:
+        """Which of the block's words hold floats, and which whole numbers, in the order of `members`: a frame packs hundreds of them at once."""
+        numbers: list[int] = []
+        whole: list[int] = []
+        for (_, kind), offset in zip(self.members, self._offsets):
+            _, size, base, _ = _LAYOUT[kind]
+            (whole if base is np.int32 else numbers).extend(range(offset // 4, (offset + size) // 4))
+        return np.array(numbers, int), np.array(whole, int)

@@ -6,7 +6,7 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -149,11 +149,11 @@ def is_open(scene: Scene) -> bool:
 def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
     # A stronger field asks for shorter steps; a control that judges its steps finds them.
-    any_control = not is_field(scene) or _is_as_measured(scene)
+    any_control, in_px = not is_field(scene) or _is_as_measured(scene), _pixels(scene)
     for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
         if not any_control and not method.step_tolerance:
             continue
-        yield Prediction(method, max(error_px(scene, row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
+        yield Prediction(method, max(in_px(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
     if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
         # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
         rows = tuple(row for row in _measured_in(_nearest_scenes(scene)) if row.model == thin_lens.MODEL)
@@ -200,7 +200,8 @@ def stated_error_px(scene: Scene) -> float:
         return math.nan
     near = _nearest_scenes(scene)
     rows = _rows_by_method(near).get(_stated_method(scene), {})
-    found = [error_px(scene, row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
+    in_px = _pixels(scene)
+    found = [in_px(row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
     return max(found) if found and len(found) == len(near) else math.nan
 
 
@@ -219,7 +220,7 @@ def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> flo
     The march errs by an angle, whatever a pixel is; interpolation by a share of a pixel, there as here, which follows the tolerance.
     """
     height = REFINED_SIZE[1]
-    march, both = (_pixels(scene, row.fov_deg, row.distance, height, row.direction_99, row.crossing_r_99) for row in (marched, refined))
+    march, both = (_pixels(scene, row.fov_deg, row.distance, height)(row.direction_99, row.crossing_r_99) for row in (marched, refined))
     added = max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
     return error_px(scene, marched.direction_99, marched.crossing_r_99, height) + added
 
@@ -237,16 +238,21 @@ def _stated_method(scene: Scene) -> Method:
 
 def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PICTURE_HEIGHT) -> float:
     """Errors in pixels of a picture of `scene` `height` pixels high: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
-    return _pixels(scene, math.degrees(projection.view_angle(scene.camera)), scene.camera.distance, height, direction, crossing_r)
+    return _pixels(scene, height=height)(direction, crossing_r)
 
 
-def _pixels(scene: Scene, fov_deg: float, distance: float, height: int, direction: float, crossing_r: float) -> float:
-    """As `error_px`, for the disk of `scene` seen by another camera."""
-    pixel = math.radians(fov_deg) / height
-    if not scene.disk.enabled or math.isinf(distance) or math.isnan(crossing_r):
-        return direction / pixel
-    outer = scene.disk.outer_radius
-    return max(direction, crossing_r * outer / max(distance, outer)) / pixel
+def _pixels(scene: Scene, fov_deg: float | None = None, distance: float | None = None, height: int = PICTURE_HEIGHT) -> Callable[[float, float], float]:
+    """What makes pixels of errors, as `error_px` does; for the disk of `scene` seen by its own camera or by another."""
+    camera = scene.camera
+    pixel = (projection.view_angle(camera) if fov_deg is None else math.radians(fov_deg)) / height
+    distance = camera.distance if distance is None else distance
+    sees_disk, outer = scene.disk.enabled and not math.isinf(distance), scene.disk.outer_radius
+    moved = outer / max(distance, outer) if sees_disk else 0.0
+
+    def in_px(direction: float, crossing_r: float) -> float:
+        return direction / pixel if math.isnan(crossing_r) else max(direction, crossing_r * moved) / pixel
+
+    return in_px
 
 
 @lru_cache(maxsize=1)
@@ -329,7 +335,10 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
 @lru_cache(maxsize=64)
 def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
     """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    apart = sorted((_distance(scene, rows[0]), name) for name, rows in _alike(scene))
+    camera = scene.camera
+    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, math.degrees(projection.view_angle(camera)))
+    spins = scene.hole.spin != 0.0
+    apart = sorted((_distance(here, spins, rows[0]), name) for name, rows in _alike(scene))
     if not apart:
         return ()
     return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])
@@ -365,16 +374,17 @@ def field_text(scene: Scene) -> str:
     return ";".join(f"{key}={value}" for key, value in sorted(changed.items()))
 
 
-def _distance(scene: Scene, row: Measured) -> float:
-    """How unlike two scenes are: in spin, in how large the hole is in the picture, in how deep the camera sits, in inclination."""
-    camera = scene.camera
-    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, math.degrees(projection.view_angle(camera)))
-    there = _likeness(row.spin, row.distance, row.inclination_deg, row.fov_deg)
+def _distance(here: tuple[float, ...], spins: bool, row: Measured) -> float:
+    """How unlike a measured scene is to that with the likeness `here`, whose hole `spins` or not.
+
+    In spin, in how large the hole is in the picture, in how deep the camera sits, in inclination.
+    """
     # A measured hole that spins says little of one that does not, and the other way round.
-    kind = 1.0 if (scene.hole.spin == 0.0) != (row.spin == 0.0) else 0.0
-    return kind + math.dist(here, there)
+    kind = 1.0 if spins != (row.spin != 0.0) else 0.0
+    return kind + math.dist(here, _likeness(row.spin, row.distance, row.inclination_deg, row.fov_deg))
 
 
+@lru_cache(maxsize=512)
 def _likeness(spin: float, distance: float, inclination_deg: float, fov_deg: float) -> tuple[float, float, float, float]:
     near = 1.0 / distance
     return abs(spin), 0.3 * math.log10(max(2.6 * near, 2.6e-4) / math.radians(fov_deg)), 2.0 * near, 0.3 * abs(math.cos(math.radians(inclination_deg)))

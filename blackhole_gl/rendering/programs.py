@@ -9,7 +9,7 @@ import time as clock
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from itertools import count
 from pathlib import Path
 
@@ -66,6 +66,12 @@ class _Structure:
 
     def __hash__(self) -> int:
         return self._hash
+
+
+@lru_cache(maxsize=_MOST_RECIPES)
+def _as_before(structure: _Structure) -> _Structure:
+    """The first that was equal to `structure`."""
+    return structure
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,9 +273,7 @@ class Programs:
         groups += [(f"thing_by_{way}", [kind for kind in chosen(plan, "thing") if kind.traits.meets == way]) for way in ("distance", "crossing")]
         groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
         paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
-        found = _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
-        if asked is not None and asked[1] == found:
-            found = asked[1]
+        found = _as_before(_Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS))))
         self._asked = plan, found
         return found
 
@@ -364,7 +368,8 @@ def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
         elif slot in MET_SLOTS:
             found += met.kinds(scene, slot)
         elif slot == "disk_layer":
-            found += [layer for layer in catalogue.plug_ins(slot).values() if plan.shows_disk and scene.get(f"disk.{layer.key}")]
+            layers = catalogue.plug_ins(slot)
+            found += [layers[key] for key in scene.disk_layers()] if plan.shows_disk else []
         else:
             found += [catalogue.plug_ins("sky")[scene.sky.model]] if scene.sky.enabled else []
     return found

@@ -67,6 +67,7 @@ class CoarseGrid:
         self._ctx, self._programs = ctx, programs
         self._kept: _Made | None = None
         self._own: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
+        self._bands: dict[Where, Sequence[Box]] = {}  # that were asked for
         self._cells: np.ndarray | None = None  # depth by what the pixels of each cell need; None once it is not the same for all of a cell's
 
     @property
@@ -97,6 +98,7 @@ class CoarseGrid:
         self._make_nodes(inputs, made)
         self._judge_cells(inputs, made, reached, solid)
         classes = made.cells.textures[1]
+        self._bands = {}
         self._cells = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(classes.height, classes.width) * np.float32(1.0 / 255.0)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
@@ -121,7 +123,11 @@ class CoarseGrid:
     def bands(self, where: Where) -> Sequence[Box]:
         """Parts of the picture that hold all of its pixels that are `where`; all of it once `give_own_rays` or `give_things` has changed some."""
         size = self.classes.size
-        return [(0, 0, *size)] if self._cells is None else list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
+        if self._cells is None:
+            return [(0, 0, *size)]
+        if where not in self._bands:
+            self._bands[where] = list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
+        return self._bands[where]
 
     def box(self, where: Where) -> Box:
         """The same in one part."""

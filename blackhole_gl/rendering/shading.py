@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
@@ -100,7 +100,7 @@ class ShadePass:
         """
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
-        self._draw_classes(matter, where, self._boxes.get(where) if hit_map.is_sharp else hit_map.box(where))
+        self._draw_classes(matter, where, self._boxes_of(hit_map, where))
 
     def _draw_media(self, inputs: FrameInputs, hit_map: HitMap) -> None:
         """The media where no disk is seen, before all else."""
@@ -203,16 +203,22 @@ class ShadePass:
             found |= self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene)
         return {**found, **self._stretches, "temperature_profile": self._temperatures.of(inputs.plan)}
 
-    def _draw_classes(self, prepared: Draw, where: Where, box: Box | None = None, squares: Squares | None = None) -> None:
-        """Draws `where` the pixel's class says, inside `box` or in `squares` alone, if such are given."""
+    def _boxes_of(self, hit_map: HitMap, where: Where) -> Sequence[Box] | None:
+        """Parts of the picture that hold all pixels that are `where`; None where that is not known."""
+        if not hit_map.is_sharp:
+            return hit_map.bands(where)
+        return [self._boxes[where]] if where in self._boxes else None
+
+    def _draw_classes(self, prepared: Draw, where: Where, boxes: Sequence[Box] | None = None, squares: Squares | None = None) -> None:
+        """Draws `where` the pixel's class says, inside `boxes` or in `squares` alone, if such are given."""
         self._ctx.depth_func = where.comparison
         prepared.set(triangle_depth=2.0 * where.depth - 1.0)
-        self._ctx.scissor = box
-        if squares is None:
-            prepared.draw()
-        else:
+        if squares is not None:
             prepared.draw_squares(squares)
-        self._ctx.scissor = None
+        elif boxes is not None:
+            prepared.draw_boxes(boxes)
+        else:
+            prepared.draw()
 
     def _sorted_pixels(self, inputs: FrameInputs, hit_map: HitMap) -> moderngl.Texture:
         found, last = self.sorting.of(inputs, hit_map), self._sorted

@@ -14,6 +14,7 @@ from ..glsl.declared import defines
 from ..physics import accretion, observer, plunging, projection, shear, tilted_disk
 from ..planning import GRID_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields, met
+from ..scene.schema import Value
 from ..scene.tables import Number
 from . import instances, pictures
 
@@ -92,13 +93,14 @@ def _numbers(of_rays: bool) -> tuple[Number, ...]:
 @cache
 def scene_block() -> Block:
     """Every number of the scene by its key with underscores; angles of the camera are left to the host."""
-    return Block("SceneBlock", 2, tuple((name, fields()[key].kind) for key, name in _number_names()))
+    return Block("SceneBlock", 2, tuple((name, fields()[key].kind) for key, name in zip(*_number_names())))
 
 
 @cache
-def _number_names() -> tuple[tuple[str, str], ...]:
-    """(key, member) of every number that shaders know."""
-    return tuple((key, item.glsl_name) for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg"))
+def _number_names() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The key of every number that shaders know, and its member."""
+    known = {key: item.glsl_name for key, item in fields().items() if item.kind in ("float", "int") and not key.endswith("_deg")}
+    return tuple(known), tuple(known.values())
 
 
 def blocks() -> tuple[Block, ...]:
@@ -170,7 +172,8 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
 
 def scene_values(plan: Plan) -> dict[str, object]:
     """Values of `scene_block`. The spin is that of the space-time: 0 where the model has none; infinite distances are given as 0."""
-    values: dict[str, object] = {name: plan.scene.get(key) for key, name in _number_names()}
+    keys, names = _number_names()
+    values: dict[str, object] = dict(zip(names, plan.scene.several(keys)))
     values["hole_spin"] = plan.space_time.spin
     values["disk_temperature_k"] = accretion.hottest(plan.scene)
     if math.isinf(plan.scene.camera.distance):
@@ -190,11 +193,11 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **shear.DEFINES, **_constants()}
-    for key, name in _switch_names():
-        found[name] = int(plan.scene.get(key) is True)
-    for key, names in _choice_names():
-        value = plan.scene.get(key)
-        found.update({name: int(value == option) for option, name in names})
+    keys, names = _switch_names()
+    found |= {name: int(on is True) for name, on in zip(names, plan.scene.several(keys))}
+    keys, options = _choice_names()
+    for value, defined in zip(plan.scene.several(keys), options):
+        found |= defined[value]
     return found
 
 
@@ -217,16 +220,19 @@ def _constants() -> Mapping[str, int]:
 
 
 @cache
-def _switch_names() -> tuple[tuple[str, str], ...]:
-    """(key, ``#define``) of every switch of the scene."""
-    return tuple((key, item.glsl_name.upper()) for key, item in fields().items() if item.kind == "switch")
+def _switch_names() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The key of every switch of the scene, and its ``#define``."""
+    known = {key: item.glsl_name.upper() for key, item in fields().items() if item.kind == "switch"}
+    return tuple(known), tuple(known.values())
 
 
 @cache
-def _choice_names() -> tuple[tuple[str, tuple[tuple[str, str], ...]], ...]:
-    """(key, (option, ``#define``) pairs) of every choice of the scene."""
-    choices = ((key, item) for key, item in fields().items() if item.kind == "choice")
-    return tuple((key, tuple((option, f"{item.glsl_name}_{option}".upper()) for option in item.options)) for key, item in choices)
+def _choice_names() -> tuple[tuple[str, ...], tuple[Mapping[Value, Mapping[str, int]], ...]]:
+    """The key of every choice of the scene, and the ``#define`` of each option by the one that is taken."""
+    known = {key: item for key, item in fields().items() if item.kind == "choice"}
+    return tuple(known), tuple(
+        {taken: {f"{item.glsl_name}_{option}".upper(): int(option == taken) for option in item.options} for taken in item.options} for item in known.values()
+    )
 
 
 def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache, partial
+from itertools import compress
 from operator import attrgetter
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -69,6 +70,14 @@ class Scene:
         instances.field_of(place, named)  # says so where there is none
         instance = named[place.name]
         return instance.kind if place.parameter == catalogue.KIND else instance.values[place.parameter]
+
+    def several(self, keys: tuple[str, ...]) -> tuple[Value, ...]:
+        """The values of `keys`, of none of an instance: every frame asks for hundreds.
+
+        Raises:
+            SceneError: no such key.
+        """
+        return tuple([read(self) for read in _readers(keys)])
 
     def field(self, key: str) -> Field:
         """What `key` may be in this scene.
@@ -145,7 +154,8 @@ class Scene:
 
     def disk_layers(self) -> tuple[str, ...]:
         """The keys of the disk's layers that are switched on."""
-        return tuple(key for key, switch in _layer_switches() if self.get(switch))
+        layers, switches = _layer_switches()
+        return tuple(compress(layers, self.several(switches)))
 
     @property
     def disk_moves(self) -> bool:
@@ -206,9 +216,19 @@ def _getters() -> Mapping[str, Callable[[Scene], Value]]:
 
 
 @cache
-def _layer_switches() -> tuple[tuple[str, str], ...]:
-    """(layer, the key of its switch) of every layer of the disk."""
-    return tuple(zip(catalogue.keys("disk_layer"), catalogue.layer_fields()))
+def _readers(keys: tuple[str, ...]) -> tuple[Callable[[Scene], Value], ...]:
+    """What reads the value of each of `keys`."""
+    return tuple(_getters().get(key) or partial(_parameter, key, _field(key).default) for key in keys)
+
+
+def _parameter(key: str, default: Value, scene: Scene) -> Value:
+    return scene.parameters.get(key, default)
+
+
+@cache
+def _layer_switches() -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Every layer of the disk, and the key of its switch."""
+    return tuple(catalogue.keys("disk_layer")), tuple(catalogue.layer_fields())
 
 
 def _field(key: str) -> Field:

@@ -6,7 +6,7 @@ import importlib
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, Literal
 
 from .headers import CatalogueError
@@ -47,7 +47,7 @@ class Made:
             CatalogueError: a key that no scene has.
         """
         try:
-            return tuple(map(scene.get, self.of))
+            return scene.several(self.of)
         except ValueError:
             known = scene.values()
             unknown = next(key for key in self.of if key not in known)
@@ -105,9 +105,15 @@ class Number(Made):
         Raises:
             CatalogueError: as `arguments` and `made`.
         """
-        timeless = replace(self, of=tuple(key for key in self.of if key != TIME)).arguments(scene)
-        values = iter(timeless)
+        if TIME not in self.of:
+            return self.made(self.arguments(scene))
+        values = iter(self._timeless.arguments(scene))
         return self.made(tuple(time if key == TIME else next(values) for key in self.of))
+
+    @cached_property
+    def _timeless(self) -> Number:
+        """The same of keys of the scene alone."""
+        return replace(self, of=tuple(key for key in self.of if key != TIME))
 
 
 @cache
