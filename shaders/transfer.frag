@@ -22,7 +22,8 @@
 //     Matter medium_<key>_matter(int i, Sight sight)    what is there (common/matter.glsl); may be asked outside of it
 //     float  medium_<key>_pattern(int i, vec3 x, float footprint)  where the header says so, how much more of it there is at this time: a factor of emission and
 //                                                       absorption, mean 1, with nothing finer than `footprint` r_s
-// Header: bolometric, false for light of one frequency; changes, true where it has a pattern, and its light is another at another time though the ray is the same.
+// Header: bolometric, false for light of one frequency; changes, true where it has a pattern, and its light is another at another time though the ray is the same;
+// soft, true where next to nothing of it is left at its surface: a coarse picture need not show that as an edge.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -114,7 +115,7 @@ void main() {
 #endif
 #if GRID
     vec2 ray = ray_spacing.x > 0.0 ? floor(gl_FragCoord.xy) : texelFetch(ray_pixels, ivec2(gl_FragCoord.xy), 0).xy;
-    ivec2 pixel = ivec2(min(abs(ray_spacing.x) * ray, vec2(textureSize(hits0, 0) - 1)));
+    ivec2 pixel = ivec2(clamp(abs(ray_spacing.x) * ray, vec2(0.0), vec2(textureSize(hits0, 0) - 1)));
 #else
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #endif
@@ -122,7 +123,7 @@ void main() {
 #if FROM_CAMERA
     Hits hits = fetch_escape(pixel);
     RayStart start = ray_start(local);
-    bool any = true;
+    bool any = ray.x >= 0.0 && is_wanted(vec2(pixel));
     int stretch = 0;
 #else
     Hits hits = fetch_hits(pixel);
@@ -132,7 +133,11 @@ void main() {
         if (is_medium(found.kind)) met = found;
         if (found.kind >= 0 && hits.fate == MET) end = found.place;
     }
+#if GRID
+    bool any = is_medium(met.kind) && ray.x >= 0.0;
+#else
     bool any = is_medium(met.kind);
+#endif
     int stretch = min(met.before, ORDERS);
 #endif
 #if SAMPLES
@@ -169,13 +174,14 @@ void main() {
     s = ray_delayed(s, met.delay);
 #endif
     Here here = here_at(orbit, s, first, end, left, ENDS_LIT, vec3(0.0));
-    bool over = !any;
-    int surfaces = 0;  // of media that it leaves; whether it goes into the one that it begins at is rounding
+    bool over = !any, meets_disk = stretch > 0;
+    int surfaces = 0, edged = edged_media();  // surfaces of those that it leaves; whether it goes into the one that it begins at is rounding
     int pieces = 0;  // of which light has been gathered; kept as the first alpha, for tests and charts
     for (int i = 0; i < MOST_VISITS; ++i) {
-        cross_gap(orbit, s, here, end, stretch, over);
+        cross_gap(orbit, s, here, end, stretch, meets_disk, over);
         if (over) break;
-        Surface ahead = surface_ahead(orbit, s, here);
+        Surface ahead = Surface(0.0, 0.0);
+        if (EDGED) ahead = surface_ahead(orbit, s, here);
         while (pieces < MOST_STEPS_ON) {
             // Up to a surface, then the little that it lies in.
             bool across = ahead.within > 0.0 && ahead.clear <= 0.0;
@@ -184,12 +190,12 @@ void main() {
             State middle = march_step(orbit, s, 0.5 * h), next = march_step(orbit, middle, 0.5 * h);
             Here between = here_at(orbit, middle, first, end, left, true, vec3(0.0)), there = here_at(orbit, next, first, end, left, ENDS_LIT, between.loses);
             bool lost = !is_finite(between.gains + between.loses) || !is_finite(there.gains + there.loses);  // there a place may have no rate
-            if (lost || ahead.within == 0.0 && there.within != here.within) {  // or a surface that is still to be found
+            if (lost || EDGED && ahead.within == 0.0 && there.within != here.within) {  // or a surface that is still to be found
                 over = lost;
                 break;
             }
             ++pieces;
-            surfaces += across && (here.within & ~there.within) != 0 ? 1 : 0;
+            surfaces += across && (here.within & ~there.within & edged) != 0 ? 1 : 0;
 #if GRID
             vec3 gains = between.gains, loses = between.loses;  // by the midpoint
 #else
@@ -217,6 +223,7 @@ void main() {
 #if ORDERS > 0
             if (crosses) {
                 stretch = min(stretch + 1, ORDERS);
+                meets_disk = meets_disk || is_near_disk(there.x);
                 for (int n = 0; n <= ORDERS; ++n)
                     if (n == stretch) light[n] = after_piece(light[n], gains, loses, (1.0 - crossed) * h);
             }
@@ -254,7 +261,7 @@ void main() {
     momentum = vec4(onward.w_rate, onward.n_rate);
 #else
     gathered0 = vec4(light[0].gathered, float(pieces));
-    dimmed0 = vec4(1.0 - light[0].passed, float(hits.fate + 8 * (min(surfaces, 31) + 32 * stretch)));  // the ray's history, for transfer_marks.frag
+    dimmed0 = vec4(1.0 - light[0].passed, float(hits.fate + 8 * (min(surfaces, 31) + 32 * (stretch + 4 * int(meets_disk)))));  // the ray's history, for transfer_marks.frag
 #if ORDERS > 0
     gathered1 = vec4(light[1].gathered, 1.0);
     dimmed1 = vec4(1.0 - light[1].passed, 1.0);

@@ -22,7 +22,7 @@ from .transfer import changes, stretches
 MOVING, TURNING = 3, 2
 """Pixels from ray to ray under a moving camera, and before one at rest while a pattern moves."""
 
-LONGER = 1.5
+LONGER = 2.0
 """Steps in media that are marched coarse in every frame, over those that the scene asks for."""
 
 LAGS = 0.25

@@ -12,7 +12,7 @@ from .ray_blocks import FreshBlocks
 from .squares import TOGETHER, Squares
 
 # Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
-_IN_A_ROW, _ROWS = 128, 4
+_IN_A_ROW, _ROWS = 128, 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +50,8 @@ class EdgeBlocks:
 
     @property
     def pixel_of_block(self) -> np.ndarray:
-        """Each block's pixel, row by row, float32 (blocks, 2); 0 for those that are nobody's."""
-        found = np.zeros((self.rows, _IN_A_ROW, 2), np.float32)
+        """Each block's pixel, row by row, float32 (blocks, 2); −1 for those that are nobody's."""
+        found = np.full((self.rows, _IN_A_ROW, 2), -1.0, np.float32)
         columns, rows = self.places.T
         found[rows, columns] = self.pixels
         return found.reshape(-1, 2)

@@ -116,7 +116,7 @@ def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
         if kind.slot == "thing":
             found[f"{name}_OPAQUE"] = int(kind.traits.opaque)
         else:
-            found[f"{name}_BOLOMETRIC"] = int(kind.traits.bolometric)
+            found |= {f"{name}_BOLOMETRIC": int(kind.traits.bolometric), f"{name}_SOFT": int(kind.traits.soft)}
     return found
 
 

@@ -20,7 +20,7 @@ class RayList:
 
     Attributes:
         count: how many there are.
-        pixels: RG32F, of the list's size: column and row of each place's pixel, from the bottom left; those behind the last are the last one's.
+        pixels: RG32F, of the list's size: column and row of each place's pixel, from the bottom left; below 0 behind the last.
         places: R32F, of the picture's size: the number of each pixel's place, row by row; below 0 where it has none.
     """
 
@@ -60,9 +60,8 @@ class RayList:
             row, column = np.divmod(pixels, self._size[0])
             numbers = numbers_of(self.rows)
             self._host.ravel()[pixels] = numbers[: self.count]
-            listed = np.empty((numbers.size, 2), np.float32)
+            listed = np.full((numbers.size, 2), _NONE, np.float32)
             listed[numbers[: self.count]] = np.stack([column, row], axis=-1)
-            listed[numbers[self.count :]] = column[-1], row[-1]
             self.pixels.write(listed.tobytes(), (0, 0, WIDE, self.rows))
         self.places.write(self._host.tobytes())
 

@@ -166,12 +166,14 @@ class MediumTraits(MetTraits):
     Attributes:
         bolometric: whether its light is that of all frequencies; else of the one that is seen.
         changes: whether its light changes with time on a ray that stays the same.
+        soft: whether next to nothing of it is left at its surface, so that no edge is seen there.
         phenomenological: whether it is made for its looks and solves no equations of matter; its parameters are then told as art.
         thickness: of a disk with depth, the parameter that is half its thickness; an instance's 0 stands for ``disk.thickness``. Empty for others.
     """
 
     bolometric: bool = True
     changes: bool = False
+    soft: bool = False
     phenomenological: bool = False
     thickness: str = ""
 

@@ -17,6 +17,11 @@ const bool ENDS_LIT = false;           // of pieces, where light is asked for
 const bool ENDS_LIT = true;
 #endif
 
+// Whether surfaces are to be found: in a coarse picture those of soft media are not seen.
+const bool EDGED = GRID == 0
+#each medium : || MEDIUM_$KEY_SOFT == 0
+;
+
 // A place on the ray.
 struct Here {
     vec3 x, towards;     // r_s; to the camera
@@ -97,6 +102,18 @@ Light after_piece(Light light, vec3 gains, vec3 loses, float way) {
     return Light(light.gathered + light.passed * share * gains * way, light.passed * exp(-depth));
 }
 
+void add_edged(inout int edged, inout int bit, const bool soft) {
+    edged |= soft ? 0 : bit;
+    bit = bit >= (1 << 30) ? 1 : 2 * bit;
+}
+
+// Which media end at an edge that is seen, as Here tells them.
+int edged_media() {
+    int edged = 0, bit = 1;
+#each medium : for (int i = 0; i < medium_$key_count; ++i) add_edged(edged, bit, MEDIUM_$KEY_SOFT == 1);
+    return edged;
+}
+
 // Signed distance of the nearest medium, and how exactly surfaces there are to be found, r_s.
 vec2 room_at(vec3 x) {
     vec2 room = vec2(1e30);
@@ -130,11 +147,16 @@ bool is_over(Orbit orbit, State s, Here here, vec3 end) {
 bool crosses_plane(vec2 heights, vec3 y) {
     return (heights.x < 0.0) != (heights.y < 0.0) && length(y) > crossing_r_min;
 }
+
+// Whether a crossing at y may be one of the disk's, or a neighbour's is.
+bool is_near_disk(vec3 y) {
+    return length(y) < 1.5 * disk_r_out;
+}
 #endif
 
 // On through empty space, to where the next step, no longer than it is to the nearest medium, leads into one, or to where the ray is over. Steps go farther than that
 // where what is known at both ends says that nothing lies between (Keinert et al. 2014): most of all where the ray goes away from what is nearest.
-void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int stretch, inout bool over) {
+void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int stretch, inout bool meets_disk, inout bool over) {
     bool outside = here.within == 0;
     float farther = 0.0;
     for (int i = 0; i < MOST_STEPS_ON; ++i) {
@@ -154,7 +176,9 @@ void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int 
         farther = unsure ? 0.0 : 1.8 * room.x / max(1.0 - (room.x - here.edge) / max(chord, 1e-20), 0.1);
         if (outside && !unsure) {
 #if ORDERS > 0
-            stretch = crosses_plane(vec2(disk_height(here.x), disk_height(x)), x) ? min(stretch + 1, ORDERS) : stretch;
+            bool crosses = crosses_plane(vec2(disk_height(here.x), disk_height(x)), x);
+            stretch = crosses ? min(stretch + 1, ORDERS) : stretch;
+            meets_disk = meets_disk || crosses && is_near_disk(x);
 #endif
 #ifdef RAY_RECHARTS
             next = ray_recharted(s, next);

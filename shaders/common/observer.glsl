@@ -15,18 +15,27 @@ struct RayStart {
 // Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. RAYS_IN_BLOCKS: what is drawn are not pixels side by side but blocks of
 // rays, each of one pixel (blackhole_gl/rendering/edges.py).
 #if RAYS_IN_BLOCKS
-uniform sampler2D block_pixels;  // each block's pixel
+uniform sampler2D block_pixels;  // each block's pixel; below 0 of blocks that are nobody's
 uniform float block_side;        // rays along each axis of a pixel
 
 vec2 picture_place(vec2 fragment) {
     vec2 pixel = texelFetch(block_pixels, ivec2(fragment / block_side), 0).xy;
     return pixel + mod(fragment, block_side) / block_side;
 }
+
+// Whether the fragment is any pixel's.
+bool is_wanted(vec2 fragment) {
+    return texelFetch(block_pixels, ivec2(fragment / block_side), 0).x >= 0.0;
+}
 #else
 const float block_side = 1.0;
 
 vec2 picture_place(vec2 fragment) {
     return fragment;
+}
+
+bool is_wanted(vec2 fragment) {
+    return true;
 }
 #endif
 

@@ -5,6 +5,7 @@ source = "Gold et al. 2020, the five tests with a known answer"
 slot = "medium"
 rank = 2
 bolometric = false
+soft = true
 reach = ["radius"]
 
 [parameters]

@@ -6,6 +6,7 @@ slot = "medium"
 rank = 5
 bolometric = false
 changes = true
+soft = true
 phenomenological = true
 reach = ["outer_radius"]
 increasing = ["inner_radius", "outer_radius"]

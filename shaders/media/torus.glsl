@@ -4,6 +4,7 @@ summary = "A Polish doughnut: a thick torus of constant angular momentum, held u
 source = "Abramowicz, Jaroszynski & Sikora 1978; Font & Daigne 2002"
 slot = "medium"
 rank = 3
+soft = true
 reach = ["radius"]
 increasing = ["inner_radius", "peak_radius", "radius"]
 
