@@ -129,11 +129,14 @@ def draw(
     renderer: Renderer,
     progress: Callable[[float], None] | None = None,
     pack: Callable[[np.ndarray], None] | None = None,
+    *,
+    stays: bool = True,
 ) -> int:
     """Draws those frames of `numbers` that are missing; returns how many those were.
 
     Args:
         pack: is given the pixels of each of `numbers`, also those that are there, in order and while others are drawn: `packing_of`.
+        stays: False of frames that are cleared when the film is whole, and need not be small.
 
     Raises:
         SceneError, ValueError: a moment cannot be drawn.
@@ -148,7 +151,7 @@ def draw(
         for done, number in enumerate(numbers):
             if number in wanted:
                 pixels, text = frame(renderer, film, number, folder)
-                waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text))
+                waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text, packed=stays))
                 if pack is not None:
                     waiting.append(packer.submit(pack, pixels))
             elif pack is not None:

@@ -75,7 +75,7 @@ def video(
             film_cluster.draw(made, folder, wanted, dask, progress)
         elif packing is not None and wanted == range(made.count):
             with film.packing_of(made, out, packing) as pack:
-                film.draw(made, folder, wanted, renderer_by(backend), progress, pack)
+                film.draw(made, folder, wanted, renderer_by(backend), progress, pack, stays=keep_frames)
         else:
             film.draw(made, folder, wanted, renderer_by(backend), progress)
     left = len(film.missing(made, folder, range(made.count)))

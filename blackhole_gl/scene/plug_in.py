@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Generic, TypeVar
@@ -103,7 +104,7 @@ class PlugIn(Generic[T]):
     tables: tuple[Table, ...]
     numbers: tuple[Number, ...]
 
-    @property
+    @cached_property
     def shipped(self) -> bool:
         """Whether it is ours and not the user's."""
         return self.file.is_relative_to(shaders_dir())

@@ -110,7 +110,10 @@ def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, dr
         film.draw(made, folder, range(9), renderer, stop, pack)
     assert not list(tmp_path.glob("*while*")), "half a film is none"
     with film.packing_of(made, tmp_path / "while.mp4", "h264") as pack:
-        assert film.draw(made, folder, range(9), renderer, None, pack) == 5
+        assert film.draw(made, folder, range(9), renderer, None, pack, stays=False) == 5
+    for number in range(9):  # the first four small, the others as they are
+        assert np.array_equal(png.read(film.frame_path(folder, number)), png.read(film.frame_path(drawn, number)))
+        assert png.read_scene_text(film.frame_path(folder, number)) == png.read_scene_text(film.frame_path(drawn, number))
     frames = []
     for name in ("after", "while"):
         with av.open(str(tmp_path / f"{name}.mp4")) as container:

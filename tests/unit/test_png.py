@@ -33,11 +33,13 @@ def test_pixels_and_text_come_back(tmp_path, pixels):
     assert [item.name for item in path.parent.iterdir()] == ["a.png"]
 
 
+@pytest.mark.parametrize("packed", [True, False], ids=["packed", "as they are"])
 @pytest.mark.parametrize("rows", [1, 2, 3, 7, 100])
-def test_large_pictures_are_packed_in_strips(rows, pixels, monkeypatch):
+def test_large_pictures_are_written_in_strips(rows, packed, pixels, monkeypatch):
     """The sum over all of them is checked here, which not every reader does."""
     monkeypatch.setattr(png, "_STRIP_BYTES", rows * 15)
-    data = png.encode(pixels, TEXT)
+    monkeypatch.setattr(png, "_STORED", 40)
+    data = png.encode(pixels, TEXT, packed=packed)
     assert data.count(b"IDAT") == 2 + -(-7 // rows), "header and sum are parts of their own"
     assert np.array_equal(np.asarray(Image.open(io.BytesIO(data))), pixels)
     parts, place = b"", 8
@@ -46,7 +48,7 @@ def test_large_pictures_are_packed_in_strips(rows, pixels, monkeypatch):
         parts += data[place + 8 : place + 8 + length] if kind == b"IDAT" else b""
         place += 12 + length
     assert len(zlib.decompress(parts)) == 7 * 16
-    assert np.array_equal(np.asarray(Image.open(io.BytesIO(png.encode(pixels[::-1], TEXT)))), pixels[::-1])
+    assert np.array_equal(np.asarray(Image.open(io.BytesIO(png.encode(pixels[::-1], TEXT, packed=packed)))), pixels[::-1])
 
 
 def test_equal_input_gives_equal_bytes(pixels):

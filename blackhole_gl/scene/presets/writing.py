@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Set
+from functools import lru_cache
 from pathlib import Path
 
 import tomlkit
@@ -91,18 +92,32 @@ def _dump(
     for name, said in about.items():
         if said != "":
             document.add(name, said)
-    for table, entries in _entries_by_table(scene, full, idle).items():
-        place = document
-        for part in table.split("."):
-            if part not in place:
-                place.add(part, tomlkit.table())
-            place = place[part]
+    texts = [tomlkit.dumps(document)] if document else []
+    written = _entries_by_table(scene, full, idle)
+    sections = list(dict.fromkeys(table.partition(".")[0] for table in written))
+    for table, entries in sorted(written.items(), key=lambda table: sections.index(table[0].partition(".")[0])):
+        found = []
         for name, item in sorted(entries.items(), key=lambda entry: bool(entry[1].columns)):  # in TOML, what stands below [[path]] belongs to it
             value = lengths.in_unit(item, scene.get(item.key), unit)
-            written = _written(item, value if folder is None else paths.relative(item, value, folder))
-            if full and item.unit:
-                written.comment(lengths.field_in(item, unit).unit)
-            place.add(name, written)
+            said = lengths.field_in(item, unit).unit if full and item.unit else ""
+            found.append((name, item, value if folder is None else paths.relative(item, value, folder), said))
+        texts.append(_table(table, tuple(found)))
+    return "\n".join(texts)
+
+
+@lru_cache(512)  # most of a film's scene is that of the frame before, and writing all of it takes 8 ms
+def _table(table: str, entries: tuple[tuple[str, Field, Value, str], ...]) -> str:
+    """The TOML of one table with the `entries` (name, field, value, unit to tell)."""
+    document = tomlkit.document()
+    place: tomlkit.TOMLDocument | tomlkit.items.Table = document
+    for part in table.split("."):
+        place.add(part, inner := tomlkit.table())
+        place = inner
+    for name, item, value, said in entries:
+        written = _written(item, value)
+        if said:
+            written.comment(said)
+        place.add(name, written)
     return tomlkit.dumps(document)
 
 
