@@ -17,9 +17,8 @@ import time as clock
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
-
-import numpy as np
 
 from blackhole_gl import film
 from blackhole_gl.asked import renderer_by, size_of
@@ -39,7 +38,7 @@ def main() -> None:
         count = frames_in(Path(folder) / "x.mp4")
     assert count == made.count, f"{count} of {made.count} frames are in the film"
     film_s, drawn_s, written_s = (took[name] for name in ("film", "drawn", "written"))
-    print(f"{made.count} frames of {asked.path} at {asked.size}: film {film_s:.1f} s, the same frames drawn {drawn_s:.1f} s, drawn and written as PNG {written_s:.1f} s")
+    print(f"{made.count} frames of {asked.path} at {asked.size}: film {film_s:.1f} s, frames drawn {drawn_s:.1f} s, drawn and written as PNG {written_s:.1f} s")
     print(f"film / drawn {film_s / drawn_s:.3f}; film / drawn and written {film_s / written_s:.3f}")
     print(f"cores: {os.cpu_count()}, load of the machine: {os.getloadavg()[0]:.1f}")
 
@@ -66,9 +65,9 @@ def measured(made: film.Film, renderer: Renderer, asked: argparse.Namespace, fol
         for turn, first in enumerate(range(0, made.count, asked.block)):
             block = range(first, min(first + asked.block, made.count))
             works: list[tuple[str, Callable[[], object]]] = [
-                ("film", lambda: film.draw(made, frames, block, renderer, None, pack, stays=False)),
-                ("drawn", lambda: alone(made, renderer, block)),
-                ("written", lambda: written(made, renderer, block, folder / "y.png")),
+                ("film", partial(film.draw, made, frames, block, renderer, None, pack, stays=False)),
+                ("drawn", partial(alone, made, renderer, block)),
+                ("written", partial(written, made, renderer, block, folder / "y.png")),
             ]
             for name, work in works[turn % 3 :] + works[: turn % 3]:
                 timed(name, work)
@@ -77,14 +76,12 @@ def measured(made: film.Film, renderer: Renderer, asked: argparse.Namespace, fol
     return seconds
 
 
-def alone(made: film.Film, renderer: Renderer, numbers: Sequence[int]) -> list[np.ndarray]:
-    """The pixels of frames, as `render` draws them."""
-    found = []
+def alone(made: film.Film, renderer: Renderer, numbers: Sequence[int]) -> None:
+    """Frames drawn to their pixels, as the command `render` does it."""
     for number in numbers:
         moment = made.flight.at(float(Fraction(number) / made.fps))
         renderer.render_still(moment.scene, moment.time, made.size, made.samples)
-        found = [annotated(renderer.read_rgb8(), moment.scene, renderer.view_of(moment.scene))]
-    return found
+        annotated(renderer.read_rgb8(), moment.scene, renderer.view_of(moment.scene))
 
 
 def written(made: film.Film, renderer: Renderer, numbers: Sequence[int], path: Path) -> None:

@@ -11,7 +11,7 @@ import os
 import struct
 import zlib
 from collections import deque
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -60,7 +60,7 @@ class Writer:
         self, stream: BinaryIO, size: tuple[int, int], scene_text: str = "", xmp: str = "", white: float | None = None, *, packed: bool = True
     ):
         self._stream, self._size, self._kind = stream, size, np.dtype(np.uint8 if white is None else ">u2")
-        self._strip_of = _packed_strip if packed else _plain_strip
+        self._strip_of: Callable[..., _Strip] = _packed_strip if packed else _plain_strip
         self._bytes = 3 * self._kind.itemsize  # of a pixel
         self._strip_rows = max(_STRIP_BYTES // (self._bytes * size[0]), 1)
         self._rows, self._ahead = 0, np.empty((0, size[0] * self._bytes), np.uint8)
