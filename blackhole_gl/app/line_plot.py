@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 import moderngl
@@ -11,15 +12,35 @@ from imgui_bundle import ImVec4, hello_imgui, imgui, implot
 
 from ..measure import line_profile
 from ..measure.line_profile import LineProfile
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from . import theme, tool_window
+from .at_rest import AtRest
 from .state import WindowState
 
 TITLE = "Line profile"
-_RESTS = 0.4  # seconds of stillness before a new view is traced
 _PARTS, _FINENESS, _BINS = 12, 0.4, 80  # fifteen thousand rays a frame
 _NAMES = ("direct image", "first ring", "second ring")
 _COLOURS = (ImVec4(0.95, 0.55, 0.20, 1.0), ImVec4(0.35, 0.80, 0.40, 1.0), ImVec4(0.40, 0.60, 0.95, 1.0))  # those of the view of orders
+
+
+@dataclass(frozen=True)
+class _View:
+    """What a profile is of.
+
+    Attributes:
+        depends: all of `scene` that it depends on.
+        index: the power that the line falls by.
+    """
+
+    scene: Scene = field(compare=False)
+    depends: tuple
+    index: float
+
+    @classmethod
+    def of(cls, scene: Scene, index: float) -> _View:
+        disk, of_rays = scene.disk, tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("rays.")))
+        edges = disk.enabled, disk.orbit, disk.inner_radius, disk.outer_radius, disk.tilt_deg, disk.tilt_azimuth_deg, disk.compositing, disk.opacity
+        return cls(scene, (scene.hole, scene.camera, scene.rays, of_rays, scene.things, scene.media, edges), index)
 
 
 class LinePlot:
@@ -27,24 +48,20 @@ class LinePlot:
 
     Args:
         make_renderer: makes a renderer of its own, so that the picture's hit map is left alone.
-
-    Attributes:
-        profile: of the last view that was traced; None before the first.
     """
 
     def __init__(self, make_renderer: Callable[[moderngl.Context], Any]):
-        self._make_renderer = make_renderer
-        self._renderer: Any = None
-        self._parts: Iterator[LineProfile | None] | None = None
-        self._view: tuple | None = None
-        self._since = 0.0
+        self._work: AtRest[_View, LineProfile] = AtRest(make_renderer, _begin)
         self._index = 3.0
-        self._failure = ""
-        self.profile: LineProfile | None = None
+
+    @property
+    def profile(self) -> LineProfile | None:
+        """Of the last view that was traced; None before the first."""
+        return self._work.found
 
     def busy(self, state: WindowState) -> bool:
         """Whether frames are wanted although nothing moves."""
-        return state.show_line and (self._parts is not None or self._view != self._wanted(state.scene))
+        return state.show_line and self._work.busy(_View.of(state.scene, self._index))
 
     def advance(self, gl: moderngl.Context, state: WindowState, now: float) -> None:
         """Traces some of the rays, when the plot is shown and the camera rests. Leaves the context with another framebuffer bound.
@@ -52,24 +69,10 @@ class LinePlot:
         Args:
             now: any clock in seconds.
         """
-        if not state.show_line or state.camera_moves:  # scene time bends no ray
-            self._since = now
-            return
-        wanted = self._wanted(state.scene)
-        if wanted != self._view and now - self._since >= _RESTS:
-            if self._renderer is None:
-                self._renderer = self._make_renderer(gl)
-            self._view, self._failure = wanted, ""
-            self._parts = line_profile.in_parts(self._renderer, state.scene, index=self._index, bins=_BINS, parts=_PARTS, fineness=_FINENESS)
-        if self._parts is None:
-            return
-        try:
-            found = next(self._parts)
-        except SceneError as error:
-            self._parts, self.profile, self._failure = None, None, str(error)
-            return
-        if found is not None:
-            self._parts, self.profile = None, found
+        if state.show_line and not state.camera_moves:  # scene time bends no ray
+            self._work.advance(gl, _View.of(state.scene, self._index), now)
+        else:
+            self._work.waits(now)
 
     def draw(self, state: WindowState) -> None:
         """The plot's window, when it is wanted; its close button puts it away."""
@@ -82,17 +85,11 @@ class LinePlot:
         self._status()
         self._plot()
 
-    def _wanted(self, scene: Scene) -> tuple:
-        """All that the profile depends on."""
-        disk = scene.disk
-        return scene.hole, scene.camera, scene.rays, scene.things, scene.media, self._index, disk.enabled, disk.orbit, disk.inner_radius, disk.outer_radius, \
-            disk.tilt_deg, disk.tilt_azimuth_deg, disk.compositing, disk.opacity  # fmt: skip
-
     def _status(self) -> None:
         imgui.set_next_item_width(10.0 * hello_imgui.em_size())
         _, self._index = imgui.slider_float("power of the line falls as r to the −q##index", self._index, 0.0, 6.0, "q = %.1f")
-        if self._failure:
-            imgui.text_wrapped(self._failure)
+        if self._work.failure:
+            imgui.text_wrapped(self._work.failure)
         elif self.profile is None:
             imgui.text_colored(theme.QUIET, "waiting for the camera to rest")
         else:
@@ -111,6 +108,10 @@ class LinePlot:
             for name, each, colour in zip(_NAMES, density, _COLOURS, strict=True):
                 _line(name, middles, each, colour)
         implot.end_plot()
+
+
+def _begin(renderer: Any, view: _View) -> Iterator[LineProfile | None]:
+    yield from line_profile.in_parts(renderer, view.scene, index=view.index, bins=_BINS, parts=_PARTS, fineness=_FINENESS)
 
 
 def _line(name: str, g: np.ndarray, density: np.ndarray, colour: ImVec4) -> None:
