@@ -41,6 +41,17 @@ class Area:
         return _side(self.width, scale), _side(self.height, scale)
 
 
+@dataclass(frozen=True)
+class FreePart:
+    """The part of the window beside the panel: in imgui's units from the top left, and in framebuffer pixels."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+    area: Area
+
+
 def _side(pixels: int, scale: float) -> int:
     """`scale` times as many pixels, or up to four less.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -22,13 +21,11 @@ from . import (
     bar,
     commands,
     file_commands,
-    flight_overlay,
     gamepad,
     glfw_window,
     help_window,
     kept,
     keys,
-    overlay,
     preset_switch,
     recorder,
     runner,
@@ -36,24 +33,22 @@ from . import (
     search_window,
     shader_watch,
     timeline_window,
-    view_scale,
     widgets,
     window_settings,
 )
-from .area import Area
+from .area import Area, FreePart
 from .ending import Ending
 from .escape import Escape
 from .failure import Failure
 from .file_dialog import FileDialog
 from .full_screen import FullScreen
 from .gesture import Editing, Gesture
-from .label_overlay import LabelOverlay
 from .light_plot import LightPlot
 from .line_plot import LinePlot
 from .live_chart import LiveChart
 from .mouse import Mouse
-from .mouse_values import MouseValues
 from .opening import WindowError, open_platform
+from .over_picture import OverPicture
 from .panel import Panel
 from .panel_width import PanelWidth
 from .path_view import PathView
@@ -65,7 +60,6 @@ from .search_window import SearchWindow
 from .shader_watch import ShaderWatch
 from .shortcuts import Layout, Shortcuts
 from .side_by_side import SideBySide
-from .start_line import StartLine
 from .state import WindowState
 from .thumbnails import Thumbnails
 from .warm_up import WarmUp
@@ -83,17 +77,6 @@ class Driver(Protocol):
 
     def register(self, window: Window) -> None:
         """Called once, when the ImGui test engine can take tests."""
-
-
-@dataclass(frozen=True)
-class _View:
-    """The free part of the window, beside the panel: in imgui's units from the top left, and in framebuffer pixels."""
-
-    left: float
-    top: float
-    width: float
-    height: float
-    area: Area
 
 
 def run(
@@ -191,7 +174,7 @@ class Window:
         self._panel_width = PanelWidth(self.kept.first_panel_em)
         self._gesture = Gesture()
         self._way_out = WayOut(self.bindings)
-        self.start_line = StartLine(scene, keys.shown(self.bindings["help"][:1]))
+        self._over = OverPicture(scene, keys.shown(self.bindings["help"][:1]))
         self._search = SearchWindow()
         self.dialog = FileDialog()
         self.picture_window = PictureWindow(picture_folder, make_renderer, self.dialog)
@@ -204,9 +187,6 @@ class Window:
         self.live_chart, self.line_plot, self.light_plot = LiveChart(make_renderer), LinePlot(make_renderer), LightPlot(make_renderer)
         self._plots = self.live_chart, self.line_plot, self.light_plot
         self.path_view = PathView()
-        self._mouse_values = MouseValues()
-        self._labels = LabelOverlay()
-        self._flown = flight_overlay.FlightOverlay()
         self._picking = Picking()
         self.warm_up = WarmUp()
         self.side_by_side = SideBySide(make_renderer, self.warm_up.submit)
@@ -258,7 +238,7 @@ class Window:
         runner.work_by_keys(self.state.panel_keys, widgets.list_is_open())
         by_view = any(part.busy(self.state) for part in (*self._plots, self.side_by_side))
         measuring = by_view or self.path_view.busy or self.picture_window.busy or self.recorder.busy
-        busy = self.state.is_moving or self.start_line.fades or measuring or self._has_more_to_draw()
+        busy = self.state.is_moving or self._over.start_line.fades or measuring or self._has_more_to_draw()
         preparing = self.picture.preparation.since is not None and not self.picture.bridges
         params.fps_idling.enable_idling = self._may_idle and (glfw_window.is_minimised() or preparing or not busy)
         params.fps_idling.fps_idle = _PREPARING_FPS if preparing else runner.IDLE_FPS
@@ -283,20 +263,8 @@ class Window:
             state.record()
         self._was_moving = state.is_moving or bool(held)
         self._reload_shaders()
-        em = hello_imgui.em_size()
-        figures = overlay.figures(state, self.picture, (view.left + 0.6 * em, view.top + 0.6 * em))
-        directions = overlay.directions(state, (view.left + view.width - 0.6 * em, view.top + 0.6 * em))
-        self._mouse_values.frame(state, self.picture, (view.left, view.top), (view.width, view.height))
-        beside = max((box[2] - box[0] for box in (figures, directions) if box), default=0.0) + 1.2 * em
-        right_top = view.left + view.width - 0.6 * em, (directions[3] if directions else view.top) + 0.6 * em
-        flown = self._flown.draw(state, right_top, (view.left + 0.5 * view.width, view.top + 0.6 * em), max(view.width - 2.0 * beside, 12.0 * em))
-        self._labels.draw(state, (view.left, view.top), (view.width, view.height), filter(None, (figures, directions, *flown)))
+        foot = self._over.draw(state, self.picture, view, hello_imgui.em_size(), start_line=self.kept.start_line)
         self._picking.frame(state, (view.left, view.top), (view.width, view.height))
-        colours = self.picture.renderer.view_of(self.picture.shown) if self.picture.shown is not None else None
-        foot = view_scale.draw(colours, (view.left + view.width - 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 1.0))
-        overlay.messages(state, self.picture, (view.left + 0.6 * em, view.top + view.height - 0.6 * em), max(view.width - 1.2 * em, 10.0 * em))
-        if self.kept.start_line:
-            self.start_line.draw(state.scene, view.left + 0.5 * view.width, view.top + view.height - 4.0 * em, view.width - 2.0 * em)
         self._search.draw(state, lambda: search_window.entries(state, self._panel.shown_fields(state.scene), self.bindings, self.do))
         self.dialog.poll()
         self.picture_window.draw(state, self.side_by_side.right_side)
@@ -357,7 +325,7 @@ class Window:
         else:
             commands.COMMANDS[action](self.state)
 
-    def view(self) -> _View:
+    def view(self) -> FreePart:
         """Where the picture goes now."""
         io = imgui.get_io()
         docking = hello_imgui.get_runner_params().docking_params
@@ -365,7 +333,7 @@ class Window:
         node = imgui.internal.dock_builder_get_central_node(dock_space) if dock_space else None
         left, top, width, height = (node.pos.x, node.pos.y, node.size.x, node.size.y) if node else (0.0, 0.0, io.display_size.x, io.display_size.y)
         scale = io.display_framebuffer_scale
-        return _View(left, top, width, height, Area.of_screen(left, top, width, height, io.display_size.y, (scale.x, scale.y)))
+        return FreePart(left, top, width, height, Area.of_screen(left, top, width, height, io.display_size.y, (scale.x, scale.y)))
 
     def _has_more_to_draw(self) -> bool:
         """Whether the picture that rests is still to come."""

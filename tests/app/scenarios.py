@@ -556,7 +556,7 @@ def labels_stand_beside_the_figures(hands: Hands) -> None:
             hands.settle()
             drawn.clear()
             hands.context.yield_(2)
-            corners = [*drawn[-2:], *hands.window._labels.words]
+            corners = [*drawn[-2:], *hands.window._over.labels.words]
             assert len(corners) > 6 and None not in corners, corners
             for one, other in itertools.combinations(corners, 2):
                 assert one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1], (inclination, one, other)

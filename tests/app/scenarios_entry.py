@@ -70,7 +70,7 @@ def time_is_shown_and_set(hands: Hands) -> None:
 
 
 def line_at_start_is_in_no_picture(hands: Hands) -> None:
-    line = hands.window.start_line
+    line = hands.window._over.start_line
     line.begin(hands.scene)
     hands.context.yield_(2)
     assert line.advance(hands.scene, imgui.get_time()) == 1.0, "it is over the picture now"
