@@ -148,22 +148,7 @@ void ray_twist_and_time(Orbit orbit, State a, float h, inout State b) {
     b.time = a.time + step_time(time_constants(orbit), time_end(orbit, a), time_end(orbit, b), h);
 }
 
-float ray_delay(State s) {
-    return 0.5 * s.time;
-}
-
-float ray_delay_rate(Orbit orbit, State s) {
-    return 0.5 * time_rate(time_constants(orbit), time_end(orbit, s));
-}
-
-vec2 path_time(Orbit orbit, State s) {
-    return path_time_at(s.w, s.w_rate, ray_delay(s), s.w > 0.0 ? ray_delay_rate(orbit, s) : 0.0);
-}
-
-State ray_delayed(State s, float delay) {
-    s.time += 2.0 * delay;
-    return s;
-}
+#include "common/mino_delay.glsl"
 #endif
 
 State state_kick(State s, float h, State k) {
