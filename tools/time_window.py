@@ -1,10 +1,10 @@
 """How long the frames of the real window take while its camera rests or moves, from picture to picture, and how coarse they are drawn.
 
-    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--settle 3] [--no-display]
+    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--settle 3] [--set KEY=VALUE] [--no-display]
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30). Each goes on for `--settle` seconds before frames count. A figure stands for the machine and its screen together: on a display with vertical
+out to 30). Each goes on for `--settle` seconds before frames count; the first of them not before the scene's own programs are there. A figure stands for the machine and its screen together: on a display with vertical
 synchronisation no frame is shorter than the screen's.
 """
 
@@ -54,20 +54,22 @@ def motions() -> dict[str, Callable[[WindowState], Collection[str]]]:
 
 @dataclass
 class Run:
-    """One motion at one frame rate aimed at, and the pictures seen: when each was there [s] and at which scale."""
+    """One motion at one frame rate aimed at, and the pictures seen: when each was there [s], after how much processor time of the window [s], and at which scale."""
 
     motion: str
     target_fps: float
     stamps: list[float] = field(default_factory=list)
+    processor: list[float] = field(default_factory=list)
     scales: list[float] = field(default_factory=list)
 
     def row(self) -> str:
         """Its row of the table; the first frame of two has no length."""
         lengths = [1e3 * (b - a) for a, b in zip(self.stamps, self.stamps[1:])]
         changes = sum(a != b for a, b in zip(self.scales, self.scales[1:]))
+        busy = 1e3 * median(b - a for a, b in zip(self.processor, self.processor[1:]))
         middle, slow = median(lengths), quantiles(lengths, n=20)[-1]
         scale = f"{median(self.scales):.2f} | {min(self.scales):.2f} to {max(self.scales):.2f} | {changes}"
-        return f"| {self.motion} | {self.target_fps:g} | {len(lengths)} | {middle:.1f} | {slow:.1f} | {max(lengths):.1f} | {1e3 / middle:.1f} | {scale} |"
+        return f"| {self.motion} | {self.target_fps:g} | {len(lengths)} | {middle:.1f} | {slow:.1f} | {max(lengths):.1f} | {busy:.1f} | {1e3 / middle:.1f} | {scale} |"
 
 
 class Conductor:
@@ -78,18 +80,23 @@ class Conductor:
         self._seconds, self._settle, self._keys = seconds, settle, motions()
         self._run: Run | None = None
         self._until = 0.0
+        self._begun = False  # whether the scene's own picture has been seen
 
     def hold(self, state: WindowState) -> Collection[str]:
         """What is held down in this frame."""
         if clock.perf_counter() > self._until:
             self._next(state)
+        elif not self._begun:
+            self._begin()
         return self._keys[self._run.motion](state) if self._run else ()
 
     def saw(self, shown: picture.Picture) -> None:
         """A picture was drawn."""
         now = clock.perf_counter()
+        self._begun = self._begun or shown.is_current
         if self._run and (shown.is_current or shown.bridges) and now > self._until - self._seconds:
             self._run.stamps.append(now)
+            self._run.processor.append(clock.process_time())
             self._run.scales.append(shown.scale)
 
     def _next(self, state: WindowState) -> None:
@@ -101,6 +108,9 @@ class Conductor:
             return
         state.show_panel = False
         state.change({"playback.target_fps": self._run.target_fps})
+        self._begin()
+
+    def _begin(self) -> None:
         self._until = clock.perf_counter() + self._settle + self._seconds
 
 
@@ -128,16 +138,17 @@ def main() -> None:
     parser.add_argument("--settle", type=float, default=3.0, help="seconds before that: for programs, and for the scale that the window finds")
     parser.add_argument("--target-fps", type=float, action="append", help="0: full size (default: 0 and 30)")
     parser.add_argument("--motion", action="append", choices=list(motions()), help="(default: all)")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--no-display", action="store_true", help="GLFW's null platform, which presents nothing")
     given = parser.parse_args()
     size = tuple(int(side) for side in given.size.split("x"))
     runs = [Run(motion, target) for target in given.target_fps or (0.0, 30.0) for motion in given.motion or motions()]
     conduct(Conductor(runs, given.seconds, given.settle))
-    print(f"| {given.size} | fps aimed at | frames | median ms | 95 % ms | longest ms | fps | scale | from, to | changes |")
-    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
+    print(f"| {given.size} | fps aimed at | frames | median ms | 95 % ms | longest ms | processor ms | fps | scale | from, to | changes |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |", flush=True)
     with tempfile.TemporaryDirectory() as folder:  # what the user's window keeps, a wider panel say, would change the picture's size
         os.environ["BLACKHOLE_GL_CONFIG_DIR"] = folder
-        window.run(presets.load(given.preset or ["kerr"]), null_platform=given.no_display, size=size)
+        window.run(presets.load(given.preset or ["kerr"], dict(pair.split("=", 1) for pair in given.set)), null_platform=given.no_display, size=size)
 
 
 if __name__ == "__main__":
