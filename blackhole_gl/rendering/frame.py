@@ -115,7 +115,7 @@ class Renderer:
         motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or coarse is not None else Motion.NOTHING
         radiance = self._kept_or_shaded(rest, coarse, motion)
         self._stamp(stamps, measure)
-        self._post.draw(inputs, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
+        self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan)

@@ -6,7 +6,7 @@ import hashlib
 import math
 import os
 import time as clock
-from collections import OrderedDict
+from collections import OrderedDict, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
@@ -46,6 +46,7 @@ _VERTEX = {"star_layer.frag": "star_layer.vert"}  # of programs that draw points
 _BETWEEN = "\0"  # a program's two texts, neither of which may hold it
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
+_PLANS = 4  # of a frame: with its media, without, with media in longer steps, and what is metered
 
 
 class Unready(RuntimeError):
@@ -218,7 +219,7 @@ class Programs:
         self._buffers, self._squares = UniformBuffers(ctx), SquareBuffer(ctx)
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
-        self._asked: tuple[Plan, _Structure] | None = None
+        self._asked: deque[tuple[Plan, _Structure]] = deque(maxlen=_PLANS)
         self._seen = self._times()
         self._content: bytes | None = None
 
@@ -265,16 +266,16 @@ class Programs:
         return self.errors
 
     def _structure(self, plan: Plan) -> _Structure:
-        """A frame asks for several programs with the same plan: worked out once. One that is as before is the same object, found by its identity."""
-        asked = self._asked
-        if asked is not None and asked[0] is plan:
-            return asked[1]
+        """A frame asks for several programs with each of few plans: worked out once. One that is as before is the same object, found by its identity."""
+        for asked, known in self._asked:
+            if asked is plan:
+                return known
         groups = [(slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS)]
         groups += [(f"thing_by_{way}", [kind for kind in chosen(plan, "thing") if kind.traits.meets == way]) for way in ("distance", "crossing")]
         groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
         paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
         found = _as_before(_Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS))))
-        self._asked = plan, found
+        self._asked.append((plan, found))
         return found
 
     def _compose(self, path: str, structure: _Structure, extra: tuple) -> _Texts:

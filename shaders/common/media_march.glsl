@@ -117,7 +117,7 @@ int edged_media() {
 // Signed distance of the nearest medium, and how exactly surfaces there are to be found, r_s.
 vec2 room_at(vec3 x) {
     vec2 room = vec2(1e30);
-#each medium : for (int i = 0; i < medium_$key_count; ++i) room = min(room, vec2(medium_$key_distance(i, x), FINE_SHARE * medium_$key_scale(i, x)));
+#each medium : for (int i = 0; i < medium_$key_count; ++i) room = min(room, vec2(medium_$key_distance(i, x), FINE_SHARE * (EDGED ? medium_$key_scale(i, x) : length(x))));
     return room;
 }
 
