@@ -14,7 +14,7 @@ BIN := $(VENV)/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
 SETUP := VENV='$(VENV)' PYTHON='$(PYTHON)' sh tools/setup.sh
 
 .DEFAULT_GOAL := help
-.PHONY: help setup view test test-slow test-pythons gallery thumbnails api-page site chart fields stability flight clean
+.PHONY: help setup view test test-slow test-pythons gallery thumbnails api-page site chart fields media stability flight clean
 
 help: ## list the targets
 	@echo 'Blackhole GL'
@@ -55,6 +55,10 @@ chart: ## measure every method: docs/accuracy.md, its charts, and the table the 
 fields: ## measure every method in every field: docs/fields.md and the table the plan chooses by
 	@$(SETUP) run
 	$(BIN)/python -m studies.fields --out docs --plan-table assets/measurements_fields.csv
+
+media: ## measure steps in every kind of medium: docs/media.md and the table the plan chooses by
+	@$(SETUP) run
+	$(BIN)/python -m studies.media --out docs --plan-table assets/measurements_media.csv
 
 test-slow: ## the tests that take minutes: ten thousand rays, a million rays, 8K pictures, the whole flight, other drivers
 	@$(SETUP) test

@@ -1,11 +1,12 @@
 """How long the frames of the real window take while its camera rests or moves, from picture to picture, and how coarse they are drawn.
 
-    python tools/time_window.py [--preset kerr] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit] [--settle 3] [--set KEY=VALUE] [--no-display]
+    python tools/time_window.py [--preset kerr] [--set KEY=VALUE] [--size 1280x720] [--seconds 20] [--target-fps 0 --target-fps 30] [--motion orbit]
+        [--settle 3] [--no-display]
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30). Each goes on for `--settle` seconds before frames count; the first of them not before the scene's own programs are there. A figure stands for the machine and its screen together: on a display with vertical
-synchronisation no frame is shorter than the screen's.
+out to 30). Each goes on for `--settle` seconds before frames count, the first of them not before the scene's own programs are there. A figure stands for
+the machine and its screen together: on a display with vertical synchronisation no frame is shorter than the screen's.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ def motions() -> dict[str, Callable[[WindowState], Collection[str]]]:
 
 @dataclass
 class Run:
-    """One motion at one frame rate aimed at, and the pictures seen: when each was there [s], after how much processor time of the window [s], and at which scale."""
+    """One motion at one frame rate aimed at, and the pictures seen: when each was there and after how much processor time [s], and at which scale."""
 
     motion: str
     target_fps: float
@@ -69,7 +70,8 @@ class Run:
         busy = 1e3 * median(b - a for a, b in zip(self.processor, self.processor[1:]))
         middle, slow = median(lengths), quantiles(lengths, n=20)[-1]
         scale = f"{median(self.scales):.2f} | {min(self.scales):.2f} to {max(self.scales):.2f} | {changes}"
-        return f"| {self.motion} | {self.target_fps:g} | {len(lengths)} | {middle:.1f} | {slow:.1f} | {max(lengths):.1f} | {busy:.1f} | {1e3 / middle:.1f} | {scale} |"
+        times = f"{middle:.1f} | {slow:.1f} | {max(lengths):.1f} | {busy:.1f} | {1e3 / middle:.1f}"
+        return f"| {self.motion} | {self.target_fps:g} | {len(lengths)} | {times} | {scale} |"
 
 
 class Conductor:

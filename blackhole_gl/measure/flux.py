@@ -66,7 +66,7 @@ def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int
 def with_half_steps(scene: Scene) -> Scene:
     """`scene` with the method that its plan chooses, and all steps half as long; no shorter than is allowed."""
     made = plan(scene)
-    halved: dict[str, float | str] = {"rays.medium_step": max(0.5 * scene.rays.medium_step, 0.01)}
+    halved: dict[str, float | str] = {"rays.medium_step": 0.5 * made.scene.rays.medium_step} if scene.media else {}
     if made.integrator is not None and made.step_control is not None:
         halved |= {"rays.model": made.model.key, "rays.integrator": made.integrator.key, "rays.step_control": made.step_control.key}
         halved |= {"rays.step_angle": 0.5 * made.step_angle, "rays.step_length": 0.5 * made.step_length}

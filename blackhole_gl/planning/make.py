@@ -9,7 +9,7 @@ from ..physics import motion, projection
 from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue, instances, met
 from ..scene.catalogue import PlugIn
-from . import choice
+from . import choice, media_steps
 from .record import INNERMOST_MATTER, MERIDIAN, WORLD, Plan
 
 # A ray that comes near the critical curve winds round the hole; one pixel in a 4K picture lies closer than 1e-7 to it only by
@@ -56,8 +56,9 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
     scene, why_other = _meeting_things(met.with_thickness(scene))
     chosen, why_times = _telling_time(scene, sky_alone=not keep_crossings)
     reasons = list(chosen.reasons if scene.rays.lensing else ("flat: lensing is off",)) + why_times
-    scene = chosen.scene
-    reasons += why_other
+    in_media = media_steps.chosen(chosen.scene)
+    scene = in_media.scene
+    reasons += (*why_other, *in_media.reasons)
     model, where = ray_model(scene), space_time(scene)
     orders = scene.rays.orders if keep_crossings else _visible_orders(scene)
     meetings = _meetings(scene)
@@ -102,7 +103,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) and not scene.disk.tilt_deg else WORLD,
         reasons=tuple(reasons),
-        warnings=(*why_upright, *why_no_glow, *_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *_why_slower(scene, where)),
+        warnings=(*why_upright, *why_no_glow, *_why_longer(stretch, max_steps), *_why_coarse(scene, chosen), *in_media.warnings, *_why_slower(scene, where)),
     )
 
 

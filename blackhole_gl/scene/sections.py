@@ -136,8 +136,12 @@ class Rays:
     field_way: float = number(
         400.0, 1.0, 1e5, "r_s", "Way within a field after which a ray is held there for good: it is black. Rays that a field lets out end in the sky.",
     )
+    light_tolerance: float = number(
+        0.001, 1e-5, 0.1, "×", "Error allowed for the light of media at 99 % of the pixels that show any, of the brightest, for steps chosen automatically.",
+    )
     medium_step: float = number(
-        0.5, 0.01, 1.0, "×", "Longest step in a medium, of the length on which the medium changes: halving it divides the error by up to sixteen.",
+        0.0, 0.0, 1.0, "×",
+        "Longest step in a medium, of the length on which the medium changes: halving it divides the error by up to sixteen. 0: from the light's tolerance.",
     )
     early_end: bool = switch(
         True, "End a ray's march where it has met something opaque, escapes or is captured. Off, for measurements: it is marched on as far as all steps lead.",

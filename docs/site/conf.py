@@ -12,7 +12,7 @@ from blackhole_gl import VERSION
 _FRONT = "README"
 _PAGES = {
     "Using it": ("docs/troubleshooting", "docs/film", "docs/python", "docs/python_reference", "examples/README"),
-    "What it computes": ("docs/physics", "docs/accuracy", "docs/fields", "docs/stability", "docs/performance", "docs/sources"),
+    "What it computes": ("docs/physics", "docs/accuracy", "docs/fields", "docs/media", "docs/stability", "docs/performance", "docs/sources"),
     "How it is made": (
         "docs/architecture", "docs/extending", "shaders/README", "docs/llvmpipe", "docs/portability", "CONTRIBUTING", "assets/SOURCES", "CHANGELOG",
     ),

@@ -1,6 +1,6 @@
 // What a ray finds on its way through media and between them, and how far it may step there. For transfer.frag, which has the contracts of media and says what GRID and SAMPLES are.
 
-const int MOST_STEPS_ON = 1024, MOST_VISITS = 256, MOST_TRIES = 24;
+const int MOST_STEPS_ON = 8192, MOST_VISITS = 256, MOST_TRIES = 24;
 #if SAMPLES
 const float LEAST_PASSED = 1e-4;       // a pattern may leave gaps
 #else

@@ -91,6 +91,14 @@ def test_the_error_falls_with_the_fourth_power_of_the_step(renderer: Renderer) -
     assert errors[0] / errors[1] > 5.0
 
 
+def test_short_steps_lose_nothing(renderer: Renderer) -> None:
+    """A ray through the last of the gold tests' plasma takes some hundred steps of half its scale, and well over a thousand of a sixteenth: with no more than
+    1024 a ray, 2.7 % of the light was missing, and at 0.03 nearly all. Steps of 0.5 err by 5e-5 of the brightest light (docs/media.md)."""
+    scene = presets.load(["gold_5"], {"sky.enabled": False})
+    plain, short = (gathered(renderer, scene.with_values({"rays.medium_step": step}), (6, 6)).sum() for step in (0.5, 0.06))
+    assert short == pytest.approx(plain, rel=2e-3)
+
+
 NEAR_BY = {**QUIET, **BALL, "hole.spin": 0.0, "camera.distance": 12.0, "camera.fov_deg": 45.0}
 
 
