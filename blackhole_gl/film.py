@@ -199,7 +199,7 @@ def packing_of(film: Film, out: Path, codec_name: str) -> AbstractContextManager
     Raises:
         FilmError: there is no PyAV or no such encoder.
     """
-    return packing(out, codec_name, film.size, film.fps, film.flight.title or out.stem, film.told())
+    return packing(out, codec_name, film.size, film.fps, film.flight.title or out.stem, film.told(), film.flight.scene.camera.projection)
 
 
 def clear(folder: Path) -> None:

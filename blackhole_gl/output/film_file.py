@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from . import spherical
+
 
 @dataclass(frozen=True)
 class Codec:
@@ -57,9 +59,12 @@ def encoders() -> dict[str, str]:
 
 @contextmanager
 def packing(
-    out: Path, codec_name: str, size: tuple[int, int], fps: Fraction, title: str, comment: str
+    out: Path, codec_name: str, size: tuple[int, int], fps: Fraction, title: str, comment: str, projection: str = "perspective"
 ) -> Generator[Callable[[np.ndarray], None]]:
     """Takes the pixels of all frames one after the other, and packs them into `out`, which is written whole or not at all.
+
+    Args:
+        projection: of the pictures, as scenes name it; what there are words for is said in the file.
 
     Raises:
         FilmError: there is no PyAV or no such encoder, or the codec takes even sizes alone.
@@ -80,6 +85,8 @@ def packing(
 
             yield pack
             container.mux(stream.encode(None))
+        if projection in spherical.PAIRS and out.suffix.lower() in spherical.SUFFIXES:
+            spherical.mark(part, pair=spherical.PAIRS[projection])
         part.replace(out)
     finally:
         part.unlink(missing_ok=True)

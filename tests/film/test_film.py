@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import film, film_cluster, films
-from blackhole_gl.output import png
+from blackhole_gl.output import png, spherical
 from blackhole_gl.physics import flight_files
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
@@ -234,3 +234,33 @@ def test_what_cannot_be_is_told_before_anything_is_drawn(values: dict, words: st
 def test_the_help_names_the_codecs_that_there_are() -> None:
     told = typing.get_type_hints(films.video, include_extras=True)["codec"].__metadata__[0].help
     assert told == f"One of {', '.join(film.CODECS)}."
+
+
+@pytest.mark.parametrize("name", ["x.mp4", "x.mov"])
+@pytest.mark.parametrize("projection", ["equirectangular", "stereo", "perspective"])
+def test_a_film_all_round_says_so_to_players(projection: str, name: str, tmp_path: Path) -> None:
+    """FFmpeg finds the box that Google's players look for, and tells of each frame what it is; of other films it tells nothing."""
+    scene = presets.load(["kerr"], {"camera.projection": projection})
+    made = film.Film(flight_files.parse(PATH, scene), Fraction(8), 3, SIZE)
+    picture = np.random.default_rng(1).integers(0, 256, (36, 64, 3), dtype=np.uint8)
+    with film.packing_of(made, tmp_path / name, film.codec_of(tmp_path / name, None)) as pack:
+        for _ in range(3):
+            pack(picture)
+    with av.open(str(tmp_path / name)) as container:
+        frames = list(container.decode(video=0))
+    assert len(frames) == 3
+    for shown in frames:
+        told = {data.type.name: bytes(data) for data in shown.side_data.keys()}
+        assert ("SPHERICAL" in told) == (projection != "perspective")
+        if "SPHERICAL" in told:
+            assert int.from_bytes(told["SPHERICAL"][:4], sys.byteorder) == 0, "AV_SPHERICAL_EQUIRECTANGULAR"
+            pair = told.get("STEREO3D", bytes(4))
+            assert int.from_bytes(pair[:4], sys.byteorder) == (2 if projection == "stereo" else 0), "AV_STEREO3D_TOPBOTTOM, AV_STEREO3D_2D"
+
+
+def test_a_file_of_another_kind_is_not_marked(tmp_path: Path) -> None:
+    path = tmp_path / "x.mp4"
+    path.write_bytes(bytes.fromhex("0000000866726565"))
+    with pytest.raises(ValueError, match="allowed is one that ends with 'moov'"):
+        spherical.mark(path, pair=False)
+    assert path.read_bytes() == bytes.fromhex("0000000866726565")
