@@ -55,6 +55,22 @@ def scene_of(names: list[str] | None, assignments: list[str] | None, any_file: b
     return scene
 
 
+def asked_for(names: list[str] | None, preset: list[str] | None, assignments: list[str] | None, any_file: bool) -> tuple[Scene, list[str]]:
+    """`scene_of` the presets given by name alone and with --preset, which are layered over them; and all of those.
+
+    Raises:
+        SceneError: as there.
+    """
+    layered = [*(names or ()), *(preset or ())]
+    return scene_of(layered, assignments, any_file), layered
+
+
+def before_drawing(scene: Scene, assignments: list[str] | None) -> None:
+    """`refuse_unmet` and `tell_warnings`."""
+    refuse_unmet(scene, assignments)
+    tell_warnings(scene)
+
+
 def refuse_unmet(scene: Scene, assignments: list[str] | None) -> None:
     """A tolerance below the floor is an error where it was given by hand; that of a preset only earns a warning, so that any camera gives a picture.
 

@@ -9,7 +9,7 @@ from typing import Annotated, TextIO
 
 from . import VERSION
 from .arguments import Argument, Option, Program
-from .asked import AnyFile, Backend, Lengths, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of, unit_of
+from .asked import AnyFile, Backend, Lengths, Named, Presets, Settings, asked_for, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of, unit_of
 from .films import video
 from .output import streams
 from .output.files import refuse_unwritable, write_whole
@@ -134,8 +134,7 @@ def render(
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, preset = asked_for(names, preset, set_, any_file)
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
@@ -161,8 +160,7 @@ def plan(
     from . import planning
     from .planning import choice
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     chosen, made = choice.choose(scene), planning.plan(scene)
     moving = choice.refinement(chosen.scene)
     print(f"method     {made.method}")

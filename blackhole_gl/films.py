@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from .arguments import Option
-from .asked import AnyFile, Backend, Named, Presets, Settings, refuse_unmet, renderer_by, scene_of, size_of, tell_warnings, time_of
+from .asked import AnyFile, Backend, Named, Presets, Settings, before_drawing, renderer_by, scene_of, size_of, time_of
 from .output.files import refuse_unwritable
 from .output.progress import Progress
 from .scene import Scene
@@ -61,8 +61,7 @@ def video(
         refuse_unwritable(out, film.SUFFIXES, "a film")
         film_file.encoders()
     wanted = range(made.count) if frames is None else _share(frames, made.count)
-    refuse_unmet(scene, set_)
-    tell_warnings(scene)
+    before_drawing(scene, set_)
     folder = film.frames_folder(out)
     film.begin(made, folder)
     there = len(wanted) - len(film.missing(made, folder, wanted))

@@ -16,10 +16,11 @@ from .asked import (
     OneUnit,
     Presets,
     Settings,
+    asked_for,
+    before_drawing,
     numbers_of,
     refuse_unmet,
     renderer_by,
-    scene_of,
     size_of,
     tell_warnings,
     time_of,
@@ -47,8 +48,7 @@ def trace(
     """
     from . import listed_rays
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     unit = None if lengths is None else unit_of(lengths)
     listed = listed_rays.read(rays, scene, unit or "M")
@@ -76,8 +76,7 @@ def curve(
     """Write where closed forms put the critical curve, and circles of the disk's plane by each order of image: in M, µas and pixels."""
     from .measure import curves
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     unit = None if lengths is None else unit_of(lengths)
     circles = [radius / factor(unit or "r_s") for radius in numbers_of(radii, float, "--radii")]
@@ -105,8 +104,7 @@ def visibilities(
     from . import layers, number_lists
     from .measure import visibilities as measured
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, preset = asked_for(names, preset, set_, any_file)
     given = [(path, columns) for path, columns in ((baselines, measured.BASELINES), (triangles, measured.TRIANGLES)) if path is not None]
     if (out is None) != (not given) or len(given) > 1 or (out is None and sky is None):
         raise ValueError("visibilities: allowed is --out with one of --baselines and --triangles, or --sky, or both")
@@ -117,8 +115,7 @@ def visibilities(
     if len(place) != 2:
         raise ValueError(f"--at: got {at!r}; allowed are right ascension and declination in degrees, e.g. 187.7059,12.3911")
     listed = [number_lists.read(path, columns, "this option", {}, measured.WRITTEN) for path, columns in given]
-    refuse_unmet(scene, set_)
-    tell_warnings(scene)
+    before_drawing(scene, set_)
     picture = measured.sky_picture(renderer_by(backend), scene, time_of(time, preset), size_of(size), scene.rays.in_stills)
     if sky is not None:
         layers.write_sky(sky, picture, scene, time_of(time, preset), flux, 1e9 * frequency, (place[0], place[1]))
@@ -139,12 +136,10 @@ def profile(
     """Write the profile of a narrow line from the whole disk, of each order of image, and say what share of the light each has."""
     from .measure import line_profile
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     line_profile.refuse(scene)
-    refuse_unmet(scene, set_)
-    tell_warnings(scene)
+    before_drawing(scene, set_)
     found = line_profile.measure(renderer_by(backend), scene, index=emissivity, bins=bins)
     write_whole(out, found.as_csv().encode())
     for name, share in zip(line_profile.ORDERS, found.shares, strict=True):
@@ -170,14 +165,12 @@ def lightcurve(
     from .measure.plot import plotted
     from .output import png
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     refuse_unwritable(out, (".csv", ".txt"), "CSV")
     if plot is not None:
         refuse_unwritable(plot, (".png",), "PNG")
     light_curve.refuse(scene)
-    refuse_unmet(scene, set_)
-    tell_warnings(scene)
+    before_drawing(scene, set_)
     with Progress("light curve") as progress:
         found = light_curve.measure(renderer_by(backend), scene, light_curve.times(scene, count, start, duration), size_of(size), progress)
     write_whole(out, found.as_csv().encode())
@@ -198,8 +191,7 @@ def polarization(
     """Write how the light of the disk is polarized, pixel by pixel, and say how much of it is, along what, and beta_2."""
     from .measure import polarization_maps
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, _ = asked_for(names, preset, set_, any_file)
     refuse_unwritable(out, (".npz",), "a NumPy archive")
     with Progress("polarization") as progress:
         found = polarization_maps.measure(scene, size_of(size), progress)
@@ -221,10 +213,8 @@ def ring(
     """Measure the ring in a picture: diameter, width, asymmetry and beta_2, of the light as it comes and through the scene's beam."""
     from .measure import ring as ring_measure
 
-    preset = [*(names or ()), *(preset or ())]
-    scene = scene_of(preset, set_, any_file)
+    scene, preset = asked_for(names, preset, set_, any_file)
     ring_measure.refuse(scene)
-    refuse_unmet(scene, set_)
-    tell_warnings(scene)
+    before_drawing(scene, set_)
     found = ring_measure.measure(renderer_by(backend), scene, time_of(time, preset), size_of(size))
     print(ring_measure.text(found, scene), end="")

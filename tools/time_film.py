@@ -88,7 +88,7 @@ def written(made: film.Film, renderer: Renderer, numbers: Sequence[int], path: P
     """Frames drawn and written, as the command `render` does it."""
     for number in numbers:
         moment = made.flight.at(float(Fraction(number) / made.fps))
-        still_files.save(renderer, path, moment.scene, moment.time, made.size, made.samples)
+        still_files.save(renderer, moment.scene, moment.time, made.size, made.samples, path=path)
 
 
 def frames_in(path: Path) -> int:

@@ -47,7 +47,7 @@ def write_linear(renderer: Renderer, path: Path, scene: Scene, time: float, size
     png.write(path, png.linear16(renderer.still_radiance(scene, time, size, samples), WHITE), text, metadata(scene.camera, size), WHITE)
 
 
-def save(renderer: Renderer, path: Path, scene: Scene, time: float, size: tuple[int, int], samples: int, *, linear: bool = False) -> None:
+def save(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int, *, path: Path, linear: bool = False) -> None:
     """`write_linear` or `write`, at once."""
     if linear:
         write_linear(renderer, path, scene, time, size, samples)

@@ -23,7 +23,7 @@ LAYERS = (
     {"gl_thread"},
     {"measure"},
     {"app"},
-    {"desktop", "film", "layers", "self_check"},
+    {"desktop", "film", "layers", "renderers", "self_check"},
     {"api"},
     {"asked", "notebook"},
     {"film_cluster"},
