@@ -18,6 +18,7 @@ uniform int firsts;          // pixels whose brightest star is drawn
 uniform sampler2D radiance;  // of the coarse picture; alpha: share of the sky's light that comes through, its sign that of shade_sky.frag
 #if POST_BLOOM
 uniform sampler2D glow;
+uniform vec4 glow_window;    // from a place in the picture, 0…1, to that in `glow`: scale, shift
 #endif
 uniform vec2 finer;          // size of the coarse picture over that shown
 
@@ -163,7 +164,7 @@ void main() {
     brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
     vec2 part = (pieces ? vec2(here) + 0.5 : place * finer) / vec2(textureSize(radiance, 0)); // of the picture
 #if POST_BLOOM
-    glowing = post_bloom_intensity * textureLod(glow, part * vec2(textureSize(radiance, 0)) / vec2(4 * textureSize(glow, 0)), 0.0).rgb;
+    glowing = post_bloom_intensity * textureLod(glow, part * glow_window.xy + glow_window.zw, 0.0).rgb;
 #else
     glowing = vec3(0.0);
 #endif

@@ -41,7 +41,7 @@ void main() {
     vec2 place = picture_place(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5);
     vec3 local = pixel_direction(place);
 #if !CAMERA_PROJECTION_PERSPECTIVE
-    if (!in_projection(place)) { // black, as what the hole hides
+    if (!in_projection(place, 4.0)) { // black, as what the hole hides
         Hits none = no_hits(0.0);
         none.fate = CAPTURED;
         store_hits(none);

@@ -42,6 +42,11 @@ def is_perspective(camera: Camera) -> bool:
     return camera.projection == PERSPECTIVE
 
 
+def goes_round(camera: Camera) -> bool:
+    """Whether the left and the right border of what is shown are neighbours."""
+    return camera.projection in (EQUIRECTANGULAR, STEREO)
+
+
 def refuse(scene: Scene) -> None:
     """Raises SceneError where `scene` asks for what its camera's projection has not."""
     camera = scene.camera

@@ -133,7 +133,7 @@ class Renderer:
         scene = self._last.plan.scene
         if stars_a_pixel(scene) and not diagnostics.is_on(scene) and min(self._last.finer) < 1.0:
             stars, samplers = self._shade.stars(self._last, self.hit_map)
-            self._stars.draw(stars, {**samplers, **self._post.samplers}, _drawn(self._radiance), target, viewport)
+            self._stars.draw(stars, {**samplers, **self._post.samplers}, _drawn(self._radiance), target, viewport, self._post.glow_window)
 
     def render_finer(self, scene: Scene, time: float, size: tuple[int, int], target: moderngl.Framebuffer | None = None) -> int:
         """Draws `scene` at scene time `time` with one more ray through each pixel than the last call for the same, and shows the mean of all (of an odd

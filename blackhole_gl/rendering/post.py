@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 
+from ..physics import projection
 from ..scene import Scene
 from .beam import BeamPass
 from .brightest import BrightestPass
@@ -16,10 +18,17 @@ from .levels import Level, draw_into, padded
 from .programs import Programs
 from .target import Target
 
-_SHRINKS = 4  # from the picture to the first level of the bloom; from level to level it is 2
+GLOW_SHRINKS = 4
+"""From the picture to the first level of the bloom; from level to level it is 2."""
 
 MOST_LEVELS = 6
 """Levels of the bloom chain at most; the smallest is then 1/128 of the picture."""
+
+GLOW_GRID = GLOW_SHRINKS << (MOST_LEVELS - 1)
+"""Pixels that the coarsest level of the bloom has in one: parts of a picture that begin on it glow as the whole does."""
+
+GLOW_REACH = 5 * GLOW_GRID
+"""Pixels, beyond which no light glows: two and a half of those from below, and as many on the way up again, less what both share."""
 
 GLOW_LASTS = 0.25
 """Scene time in r_s/c for which a glow may stand still: the picture is then off by 0.01 grey levels in the mean, and nowhere by more than 4."""
@@ -30,7 +39,7 @@ TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
 
 def bloom_sizes(size: tuple[int, int]) -> Iterator[tuple[int, int]]:
     """Sizes of the bloom levels of a picture of `size`: a quarter, then halves, rounded up, until a side is 2 or less."""
-    size = -(-size[0] // _SHRINKS), -(-size[1] // _SHRINKS)
+    size = -(-size[0] // GLOW_SHRINKS), -(-size[1] // GLOW_SHRINKS)
     yield size
     for _ in range(MOST_LEVELS - 1):
         if min(size) <= 2:
@@ -62,6 +71,7 @@ class PostPass:
 
     Attributes:
         samplers: what the last picture was developed with, by the names in shaders.
+        glow_window: scale and shift from a place in it to that in its ``glow``, where it has one.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
@@ -74,6 +84,7 @@ class PostPass:
         self._tone_key: tuple | None = None
         self._beam, self._brightest = BeamPass(ctx, programs), BrightestPass(ctx, programs)
         self.samplers: dict[str, moderngl.Texture] = {}
+        self.glow_window = 1.0, 1.0, 0.0, 0.0
         self._lasting: FrameInputs | None = None  # the frame that the glow was made of, where the next one may have it too
 
     def draw(
@@ -100,9 +111,13 @@ class PostPass:
             self.samplers["brightest"] = self._brightest.of(inputs, radiance)
         elif post.bloom:
             self.samplers["glow"] = self._glow(inputs, radiance, may_last=glow_may_last)
+        glow = None
+        if "glow" in self.samplers:
+            texture = self.samplers["glow"]
+            glow = _Window((GLOW_SHRINKS * texture.width, GLOW_SHRINKS * texture.height), (-_glow_beyond(inputs), 0))
         if viewport[2:] == radiance.size and not post.lens:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        self._tone_map(inputs, target, viewport, viewport[:2], viewport[2:], _Window(radiance.size, (0, 0)))
+        self._tone_map(inputs, target, viewport, viewport[:2], viewport[2:], _Window(radiance.size, (0, 0)), glow)
 
     def bright(self, inputs: FrameInputs, radiance: moderngl.Texture) -> np.ndarray:
         """What glows of `radiance` (RGBA16F), at a quarter of its size, rounded up: float16 (height, width, 4), row 0 at the bottom."""
@@ -140,7 +155,7 @@ class PostPass:
         window = None
         if glow is not None:
             self.samplers["glow"], start = glow
-            window = _Window((_SHRINKS * glow[0].width, _SHRINKS * glow[0].height), start)
+            window = _Window((GLOW_SHRINKS * glow[0].width, GLOW_SHRINKS * glow[0].height), start)
         self._tone_map(inputs, target, (0, 0, *radiance.size), (-corner[0], -corner[1]), inputs.picture, _Window(radiance.size, corner), window)
 
     def _tone_map(
@@ -151,16 +166,15 @@ class PostPass:
         origin: tuple[int, int],
         shown: tuple[int, int],
         light: _Window,
-        glow: _Window | None = None,
+        glow: _Window | None,
     ) -> None:
         """Fills `viewport` of `target` from the samplers; the picture is `shown` so large and begins at `origin` there."""
         made = self._programs.get("post/tone_map.frag", inputs, TONE_TABLE)
         made.sample(self.samplers)
         made.set(target_origin=origin, target_texel=_texel(shown), light_window=light.of(inputs.picture))
-        if "glow" in self.samplers:
-            texture = self.samplers["glow"]
-            whole = _Window((_SHRINKS * texture.width, _SHRINKS * texture.height), (0, 0))
-            made.set(glow_window=(glow or whole).of(inputs.picture))
+        if glow is not None:
+            self.glow_window = glow.of(inputs.picture)
+            made.set(glow_window=self.glow_window)
         target.use()
         outer = target.viewport
         target.viewport = viewport
@@ -204,15 +218,27 @@ class PostPass:
         return self._bloom(inputs, radiance)
 
     def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
-        self._make_levels(next(bloom_sizes(radiance.size)))
-        self._draw_quarter(inputs, radiance, self._down[0])
+        width, height = next(bloom_sizes(radiance.size))
+        self._make_levels((width + 2 * (_glow_beyond(inputs) // GLOW_SHRINKS), height))
+        self._draw_quarter(inputs, radiance, self._down[0], _glow_beyond(inputs))
         return self._spread(inputs)
 
-    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level) -> None:
+    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level, beyond: int = 0) -> None:
+        """What glows of `radiance`, and of what stands so many pixels `beyond` its left and right border where it goes round."""
         down = self._programs.get("post/bloom_down.frag", inputs)
         down.sample({"source": radiance})
-        down.set(**_places("source", radiance, radiance.size, _SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
-        draw_into(level, down)
+        down.set(**_places("source", radiance, radiance.size, GLOW_SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
+        if not beyond:
+            draw_into(level, down)
+            return
+        level.target.frame.use()
+        around = projection.filled(inputs.plan.scene.camera, radiance.size)[0]
+        first = beyond + 0.5 * (radiance.width - around)  # pixel of the level's that what goes round begins at
+        for turn in range(-math.ceil(first / around), math.ceil(first / around) + 1):
+            left, right = (min(max(round((first + edge * around) / GLOW_SHRINKS), 0), level.size[0]) for edge in (turn, turn + 1))
+            down.set(source_start=(-(beyond + turn * around) / radiance.width, 0.0))
+            down.draw_boxes([(left, 0, right - left, level.size[1])])
+        down.set(source_start=(0.0, 0.0))
 
     def _spread(self, inputs: FrameInputs) -> moderngl.Texture:
         """The glow of what the first level holds."""
@@ -237,10 +263,15 @@ class PostPass:
         if first == self._size:
             return
         self._release_levels()
-        _, *others = bloom_sizes((_SHRINKS * first[0], _SHRINKS * first[1]))
+        _, *others = bloom_sizes((GLOW_SHRINKS * first[0], GLOW_SHRINKS * first[1]))
         self._down = [Level.of(self._ctx, first, first), *(Level.of(self._ctx, other, padded(other)) for other in others)]
         self._up = [Level.of(self._ctx, level.size, level.texture.size) for level in reversed(self._down[:-1])]
         self._size = first
+
+
+def _glow_beyond(inputs: FrameInputs) -> int:
+    """Pixels of a whole picture beyond its left and its right border whose light glows in it: those of the other side, where it goes round."""
+    return GLOW_REACH if projection.goes_round(inputs.plan.scene.camera) else 0
 
 
 def _lasts(before: FrameInputs, now: FrameInputs) -> bool:

@@ -28,12 +28,14 @@ class StarLayer:
         radiance: Target,
         target: moderngl.Framebuffer,
         viewport: tuple[int, int, int, int],
+        glow_window: tuple[float, float, float, float],
     ) -> None:
         """Adds the stars of a coarse picture to the picture enlarged, which `viewport` (x, y, width, height) of `target` holds. Waits for the GPU.
 
         Args:
             stars: the program.
             samplers: of the hit map, of the sky, and of what the coarse picture was developed with, by their names in shaders.
+            glow_window: of the coarse picture's glow, where it has one: `PostPass.glow_window`.
             radiance: of the coarse picture; alpha tells where there are stars (shaders/shade_sky.frag).
         """
         first, second = _with_stars(radiance)
@@ -41,6 +43,8 @@ class StarLayer:
         x, y, width, height = viewport
         radiance.texture.filter = moderngl.LINEAR, moderngl.LINEAR
         stars.sample({**samplers, "pixels": self._list(pixels, radiance.size[0])})
+        if "glow" in samplers:
+            stars.set(glow_window=glow_window)
         stars.set(firsts=len(first), finer=(radiance.size[0] / width, radiance.size[1] / height))
         stars.set(target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
         outer = target.viewport

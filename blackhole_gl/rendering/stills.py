@@ -1,7 +1,7 @@
 """Pictures of any size: drawn in tiles, developed in bands from the top down and handed on, so that no more of one is held than its glow reaches.
 
-What is held are `_REACH` rows and a band of linear light, eight bytes a pixel, and a sixteenth of as much again that glows: it grows with a picture's width and
-not with its height.
+What is held are `GLOW_REACH` rows and a band of linear light, eight bytes a pixel, and a sixteenth of as much again that glows: it grows with a picture's
+width and not with its height.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from ..physics import projection
 from ..planning import Plan
 from .inputs import FrameInputs
-from .post import PostPass
+from .post import GLOW_GRID, GLOW_REACH, GLOW_SHRINKS, PostPass
 from .stereo import STRIP, Eyes
 from .target import Target
 
@@ -27,9 +27,6 @@ TILE = 512
 # About a tile, drawn with it and left out: whether a pixel is at an edge depends on those beside it. Even, as the tiles are.
 _MARGIN = 2
 
-_GRID = 128  # pixels that the coarsest level of the bloom has in one: parts that begin on it glow as the whole does
-_REACH = 5 * _GRID  # pixels, beyond which no light glows: two and a half of those from below, and as many on the way up again, less what both share
-_QUARTER = 4  # of the pixels' side, what glows is kept with
 
 _BAND_PIXELS = 1 << 22  # in a band, or a row of tiles where that is more
 _MOST_WIDE = 8192  # pixels of a texture: drivers end at 16384
@@ -80,7 +77,7 @@ class Stills:
         """
         views = _views(moments, size)
         if size[0] * size[1] <= tile * tile:  # one is enough, whatever its shape
-            tile = -(-max(size) // _GRID) * _GRID
+            tile = -(-max(size) // GLOW_GRID) * GLOW_GRID
         for number, view in enumerate(views):
             for share, rows in self._view_bands(view, samples, tile):
                 yield (number + share) / len(views), rows
@@ -119,7 +116,7 @@ class Stills:
                 held.append(band)
                 if glow is not None:
                     glow.add(band)
-                lowest = 0 if band.first == 0 else band.first + (0 if glow is None else _REACH)
+                lowest = 0 if band.first == 0 else band.first + (0 if glow is None else GLOW_REACH)
                 while held and held[0].first >= lowest:
                     yield share, self._developed(inputs, held.popleft(), glow)
         finally:
@@ -130,9 +127,9 @@ class Stills:
     def _light_bands(self, view: _View, samples: int, tile: int, *, whole: bool) -> Iterator[tuple[float, _Band | None]]:
         """Bands from the top down, and the share done with each of their tiles."""
         width, height = view.size
-        rows = math.lcm(tile, _GRID)
+        rows = math.lcm(tile, GLOW_GRID)
         rows = -(-height // rows) * rows if whole else max(_BAND_PIXELS // width // rows, 1) * rows
-        wide = width if whole else max(min(_MOST_WIDE, width) // math.lcm(tile, _GRID), 1) * math.lcm(tile, _GRID)
+        wide = width if whole else max(min(_MOST_WIDE, width) // math.lcm(tile, GLOW_GRID), 1) * math.lcm(tile, GLOW_GRID)
         for first in range((height - 1) // rows * rows, -1, -rows):
             end = min(first + rows, height)
             parts = tuple(_Part((x, first), self._texture((min(wide, width - x), end - first))) for x in range(0, width, wide))
@@ -243,28 +240,28 @@ class _Glow:
     def __init__(self, post: PostPass, inputs: FrameInputs):
         self._post, self._inputs = post, inputs
         self._rows: dict[int, np.ndarray] = {}  # rows of a quarter of the picture's
-        self._size = -(-inputs.picture[0] // _QUARTER), -(-inputs.picture[1] // _QUARTER)
-        self._goes_round = goes_round(inputs.plan)
+        self._size = -(-inputs.picture[0] // GLOW_SHRINKS), -(-inputs.picture[1] // GLOW_SHRINKS)
+        self._goes_round = projection.goes_round(inputs.plan.scene.camera)
         self._last: tuple[tuple[int, ...], moderngl.Texture] | None = None
 
     def add(self, band: _Band) -> None:
         """`band`, which lies below all before."""
         rows = np.concatenate([self._post.bright(self._inputs, part.light) for part in band.parts], axis=1)
-        for number, row in enumerate(rows, band.first // _QUARTER):
+        for number, row in enumerate(rows, band.first // GLOW_SHRINKS):
             self._rows[number] = row
 
     def about(self, corner: Place, size: tuple[int, int]) -> tuple[moderngl.Texture, Place]:
         """The glow about a part of the picture, and the pixel where it begins."""
-        reach = _REACH // _QUARTER
+        reach = GLOW_REACH // GLOW_SHRINKS
         bounds = []
         for first, wide, whole in zip(corner, size, self._size):
-            low, high = first // _QUARTER - reach, -(-(first + wide) // _QUARTER) + reach
+            low, high = first // GLOW_SHRINKS - reach, -(-(first + wide) // GLOW_SHRINKS) + reach
             bounds += [low, high] if self._goes_round else [max(low, 0), min(high, whole)]
         key = tuple(bounds)
         if self._last is None or self._last[0] != key:
             self._last = key, self._post.spread(self._inputs, self._cut(*bounds))
         self._forget_above(bounds[3])
-        return self._last[1], (_QUARTER * bounds[0], _QUARTER * bounds[2])
+        return self._last[1], (GLOW_SHRINKS * bounds[0], GLOW_SHRINKS * bounds[2])
 
     def _cut(self, left: int, right: int, bottom: int, top: int) -> np.ndarray:
         """Columns and rows of what glows; beyond a border of what goes round comes what lies there: over a pole, upside down and half way round."""
@@ -278,15 +275,10 @@ class _Glow:
         return found
 
     def _forget_above(self, row: int) -> None:
-        if self._goes_round and self._size[1] <= 2 * _REACH // _QUARTER:
+        if self._goes_round and self._size[1] <= 2 * GLOW_REACH // GLOW_SHRINKS:
             return
         for number in [number for number in self._rows if number >= row]:
             del self._rows[number]
-
-
-def goes_round(plan: Plan) -> bool:
-    """Whether the borders of the picture meet."""
-    return plan.scene.camera.projection in (projection.EQUIRECTANGULAR, projection.STEREO)
 
 
 def _glows(plan: Plan) -> bool:
@@ -303,7 +295,7 @@ def _needs_all(plan: Plan) -> bool:
 def _views(moments: Sequence[tuple[Plan, float]], size: tuple[int, int]) -> list[_View]:
     """From the top of the picture down."""
     camera = moments[0][0].scene.camera
-    round_ = goes_round(moments[0][0])
+    round_ = projection.goes_round(camera)
     if camera.projection != projection.STEREO:
         return [_View(tuple(moments), size, None, round_)]
     half = size[0], size[1] // 2

@@ -69,15 +69,15 @@ vec2 from_middle(vec2 place) {
 #endif
 }
 
-// Whether the projection shows `place`. What goes round is shown a few pixels on, for the borders of tiles of a picture.
-bool in_projection(vec2 place) {
+// Whether the projection shows `place`. What goes round is shown some pixels `beyond`, where tiles of a picture need it.
+bool in_projection(vec2 place, float beyond) {
     vec2 at = abs(from_middle(place));
 #if CAMERA_PROJECTION_CUBE
     return at.x < 3.0 && at.y < 0.5;
 #elif CAMERA_PROJECTION_DOME
     return dot(at, at) < 1.0;
 #else
-    float more = 8.0 / 1.5707963 * picture_scale;
+    float more = beyond * 2.0 / 1.5707963 * picture_scale;
     return at.x < 2.0 + more && at.y < 1.0 + more;
 #endif
 }

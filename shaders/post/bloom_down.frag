@@ -9,6 +9,7 @@
 
 uniform sampler2D source;
 uniform vec2 source_scale;    // from a pixel of the target to its place in the source
+uniform vec2 source_start;    // the place there that the target's lower left corner has
 uniform vec2 source_last;     // the last place that holds light: the source may be larger than what lies in it
 uniform vec2 source_texel;    // 1 / size of the source
 uniform float centre_weight;
@@ -21,7 +22,7 @@ vec3 tap(vec2 place) {
 }
 
 void main() {
-    vec2 place = gl_FragCoord.xy * source_scale;
+    vec2 place = source_start + gl_FragCoord.xy * source_scale;
     vec2 d = source_texel;
     vec3 sum = centre_weight * tap(place)
              + tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y));

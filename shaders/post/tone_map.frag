@@ -7,7 +7,7 @@
 #include "common/developed.glsl"
 #include "common/lensed_picture.glsl"
 #include "common/heat.glsl"
-#if CAMERA_PROJECTION_DOME
+#if !CAMERA_PROJECTION_PERSPECTIVE
 #include "common/observer.glsl"
 #endif
 
@@ -58,8 +58,8 @@ void main() {
     // One grey level at most, less near black and white, so that both stay clean.
     code += dither_noise(pixel) * min(vec3(1.0 / 255.0), min(code, 1.0 - code));
 #endif
-#if CAMERA_PROJECTION_DOME
-    if (!in_projection(pixel)) code = vec3(0.0); // no glow beyond the rim
+#if !CAMERA_PROJECTION_PERSPECTIVE
+    if (!in_projection(pixel * target_texel * picture_size, 0.0)) code = vec3(0.0); // no glow beyond the rim
 #endif
     colour = vec4(code, 1.0);
 }

@@ -112,6 +112,39 @@ def test_no_seam_where_left_and_right_meet(renderer: Renderer) -> None:
     assert apart[:, 480:544].mean() <= apart[:, 380:640].mean() + 0.02, "the seam is as its surroundings"
 
 
+@pytest.mark.parametrize("size", [(512, 288), (600, 256)], ids=["borders above", "borders aside"])
+def test_glow_goes_round_in_the_window(size: tuple[int, int], renderer: Renderer) -> None:
+    """Of what stands at the seam as of what stands in the middle: within a level, but for what falls between the pixels otherwise."""
+    shown = []
+    for yaw in (0.0, 150.0, 180.0):
+        quiet: dict[str, object] = {"post__dither": False, "post__bloom_intensity": 1.0, "sky__enabled": False, "rays__edges": 1}
+        renderer.render(scene_of("equirectangular", camera__yaw_deg=yaw, camera__distance=6.0, **quiet), 3.0, size)
+        left, pixels = (size[0] - 512) // 2, renderer.read_rgb8()
+        shown.append(pixels[:, left : left + 512].astype(int))
+        assert not pixels[:, :left].any() and not pixels[:, left + 512 :].any() and not pixels[: (size[1] - 256) // 2].any(), "borders are black"
+    assert shown[2][:, :2].max() > 100, "something stands at the seam"
+    apart = np.abs(np.roll(shown[2], 256, axis=1) - shown[0])
+    assert np.quantile(apart, 0.99) <= 1.0
+    assert apart[:, 248:264].mean() <= apart[:, 128:384].mean() + 0.2
+    # Where the seam is beside the hole, light from the right border reaches over the left one as it does inside.
+    middle = shown[1]
+    steps = np.abs(np.diff(np.concatenate([middle[:, -3:], middle[:, :3]], axis=1), axis=1)).mean(axis=(0, 2))
+    assert steps[2] <= max(steps[:2].max(), steps[3:].max()) + 0.5
+
+
+@pytest.mark.parametrize("name", ["dome", "equirectangular"])
+def test_a_coarse_picture_enlarged_fills_its_projection_as_a_fine_one_does(name: str, renderer: Renderer) -> None:
+    """As the window has it while the camera moves."""
+    shown = []
+    for size in ((120, 90), (240, 180)):
+        target = renderer.ctx.simple_framebuffer((240, 180), 3)
+        renderer.render(scene_of(name, sky__enabled=False, post__bloom_threshold=0.0, post__exposure=8.0, camera__distance=6.0), 3.0, size, target, (0, 0, 240, 180))
+        shown.append(np.frombuffer(target.read(components=3, alignment=1), np.uint8).reshape(180, 240, 3).any(axis=-1))
+        target.release()
+    assert 0.2 < shown[1].mean() < 0.7
+    assert (shown[0] != shown[1]).mean() < 0.02
+
+
 def test_no_seam_over_the_zenith(renderer: Renderer) -> None:
     """The topmost row meets itself half way round: it differs there by no more than from the row below it. The glow of what stands there goes over it."""
     quiet: dict[str, object] = {"post__dither": False, "sky__enabled": False, "post__bloom_threshold": 0.0}
