@@ -138,7 +138,8 @@ def test_a_coarse_picture_enlarged_fills_its_projection_as_a_fine_one_does(name:
     shown = []
     for size in ((120, 90), (240, 180)):
         target = renderer.ctx.simple_framebuffer((240, 180), 3)
-        renderer.render(scene_of(name, sky__enabled=False, post__bloom_threshold=0.0, post__exposure=8.0, camera__distance=6.0), 3.0, size, target, (0, 0, 240, 180))
+        scene = scene_of(name, sky__enabled=False, post__bloom_threshold=0.0, post__exposure=8.0, camera__distance=6.0)
+        renderer.render(scene, 3.0, size, target, (0, 0, 240, 180))
         shown.append(np.frombuffer(target.read(components=3, alignment=1), np.uint8).reshape(180, 240, 3).any(axis=-1))
         target.release()
     assert 0.2 < shown[1].mean() < 0.7

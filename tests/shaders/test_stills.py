@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.output import png
-from blackhole_gl.rendering import still_files, stills
+from blackhole_gl.rendering import post, still_files, stills
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
@@ -62,7 +62,7 @@ def test_what_is_held_does_not_grow_with_the_height(renderer: Renderer) -> None:
         finally:
             stills.Stills._texture = made  # type: ignore[method-assign]
             tracemalloc.stop()
-    assert held[0][0] == held[1][0] < 2 * (stills._REACH // 128 + 2) + 1
+    assert held[0][0] == held[1][0] < 2 * (post.GLOW_REACH // 128 + 2) + 1
     assert held[1][1] < 1.2 * held[0][1]
 
 
