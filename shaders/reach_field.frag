@@ -32,7 +32,7 @@ Spot straight_end(Spot here) {
 
 void main() {
     vec2 pixel = reach_step * (gl_FragCoord.xy - 0.5) + 0.5;
-    RayStart start = ray_start(pixel_direction(picture_place(pixel)));
+    RayStart start = ray_start(pixel_direction(pixel));
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
     March m = march_start(orbit, ray_init(start, orbit, hits));

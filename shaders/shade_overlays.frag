@@ -11,10 +11,10 @@
 #include "common/hit_map_read.glsl"
 #include "common/disk_plane.glsl"
 
-#if RAYS_IN_BLOCKS
-uniform float block_side;   // rays along each axis of a pixel
-#else
+#if HIT_MAP_REFINED
 const float block_side = 1.0;
+#else
+uniform float block_side;   // rays along each axis of a pixel
 #endif
 
 out vec4 line;  // colour × share, share

@@ -38,7 +38,7 @@ void main() {
 #if RAYS_LISTED
     vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
 #else
-    vec2 place = picture_place(ray_grid.x * (gl_FragCoord.xy - 0.5) + ray_grid.yz + 0.5);
+    vec2 place = ray_grid.x * (picture_place(gl_FragCoord.xy) - 0.5) + ray_grid.yz + 0.5;
     vec3 local = pixel_direction(place);
 #if !CAMERA_PROJECTION_PERSPECTIVE
     if (!in_projection(place, 4.0)) { // black, as what the hole hides

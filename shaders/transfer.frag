@@ -119,11 +119,12 @@ void main() {
 #else
     ivec2 pixel = ivec2(gl_FragCoord.xy);
 #endif
-    vec3 local = pixel_direction(picture_place(vec2(pixel) + 0.5)), end = vec3(1e15);
+    vec2 place = picture_place(vec2(pixel) + 0.5);
+    vec3 local = pixel_direction(place), end = vec3(1e15);
 #if FROM_CAMERA
     Hits hits = fetch_escape(pixel);
     RayStart start = ray_start(local);
-    bool any = ray.x >= 0.0 && is_wanted(vec2(pixel));
+    bool any = ray.x >= 0.0 && place.x >= 0.0;
     int stretch = 0;
 #else
     Hits hits = fetch_hits(pixel);

@@ -257,8 +257,7 @@ class _Asked:
 
 def _prepare(march: Draw, hit_map: HitMap) -> None:
     march.set(meeting_reach=march.inputs.plan.reach)
-    if "block_side" in march.program:
-        march.set(block_side=float(hit_map.block_side))
+    hit_map.tell_blocks(march)
 
 
 class _Made:

@@ -7,12 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from ..shapes import Bool, Int
+from ..shapes import Bool, Float, Int
 from .ray_blocks import FreshBlocks
 from .squares import TOGETHER, Squares
 
-# Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures.
-_IN_A_ROW, _ROWS = 128, 2
+# Blocks beside each other in the map that holds them, and what number of rows it has a multiple of: a map that keeps its size keeps its textures. Neither
+# sides of blocks nor of the map are powers of two, for which llvmpipe would compile each program that reads it anew.
+_IN_A_ROW, _ROWS = 120, 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,12 +50,14 @@ class EdgeBlocks:
         return _places(self.numbers)
 
     @property
-    def pixel_of_block(self) -> np.ndarray:
-        """Each block's pixel, row by row, float32 (blocks, 2); −1 for those that are nobody's."""
-        found = np.full((self.rows, _IN_A_ROW, 2), -1.0, np.float32)
+    def shifts(self) -> Float[np.ndarray, "rows columns 2"]:
+        """Each block's pixel less its place in the map, float32; those that are nobody's have the pixel −1."""
+        pixels = np.full((self.rows, _IN_A_ROW, 2), -1.0, np.float32)
         columns, rows = self.places.T
-        found[rows, columns] = self.pixels
-        return found.reshape(-1, 2)
+        pixels[rows, columns] = self.pixels
+        pixels[..., 0] -= np.arange(_IN_A_ROW)
+        pixels[..., 1] -= np.arange(self.rows)[:, None]
+        return pixels
 
     def after(
         self, pixels: Int[np.ndarray, "pixels 2"], seeking: Bool[np.ndarray, " pixels"], changed: Squares, size: tuple[int, int]

@@ -18,7 +18,7 @@ from .edge_pixels import EdgePixels
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
-from .ray_blocks import RayBlocks
+from .ray_blocks import RayBlocks, shifts_texture
 from .shading import ShadePass
 from .sorting import PixelSorting, hides
 from .squares import TOGETHER, Squares
@@ -141,9 +141,8 @@ class EdgeRays:
         if self._texture is None or self._texture.size != held.size:
             if self._texture is not None:
                 self._texture.release()
-            self._texture = self._ctx.texture(held.size, 2, dtype="f4")
-            self._texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        self._texture.write(held.pixel_of_block.tobytes())
+            self._texture = shifts_texture(self._ctx, held.size)
+        self._texture.write(held.shifts.tobytes())
         made = RayBlocks(side, self._texture)
         if self._radiance is None or self._radiance.size != made.size:
             if self._radiance is not None:

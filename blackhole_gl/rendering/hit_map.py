@@ -24,7 +24,7 @@ from .inputs import FrameInputs
 from .instance_numbers import Number
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
-from .ray_blocks import IN_BLOCKS, FreshBlocks, RayBlocks
+from .ray_blocks import FreshBlocks, RayBlocks
 from .squares import Squares
 from .tables import Tables
 from .target import Target
@@ -71,7 +71,8 @@ class HitMap:
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
-        self._blocks: RayBlocks | None = None  # of which the map's rays are, if they are not one for each pixel
+        self._pixels: RayBlocks | None = None  # blocks of a ray each
+        self._blocks: RayBlocks | None = None  # of which the map's rays are, if they are not those
 
     def trace(self, inputs: FrameInputs, *, progressive: bool = False) -> bool:
         """Traces `inputs` unless the map holds just that already.
@@ -138,31 +139,38 @@ class HitMap:
         self._last, self._blocks, self._refined_for = inputs, blocks, None
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
         if fresh.whole:
-            self._trace_rows(self._rays_of(blocks, {}), target, 0, inputs.size[1])
+            self._trace_rows(self._prepared({}), target, 0, inputs.size[1])
         elif fresh.changed is None:
             target.clear()
         for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
             for some in filter(len, squares):
-                self._trace_squares(self._rays_of(blocks, switches), target, some)
+                self._trace_squares(self._prepared(switches), target, some)
         self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
         self._key, self.generation = None, next(_GENERATIONS)
         self.traces += 1
 
-    def _rays_of(self, blocks: RayBlocks, switches: Mapping[str, int]) -> Draw:
-        """What draws rays of `blocks`, made ready."""
-        rays = self._programs.get("trace.frag", self._traced, {**IN_BLOCKS, **switches})
-        rays.sample(blocks.samplers)
-        rays.set(block_side=float(blocks.side))
+    def _prepared(self, switches: Mapping[str, int]) -> Draw:
+        """What traces the map's rays."""
+        rays = self._programs.get("trace.frag", self._traced, switches)
         self._bind_tables(rays)
         return rays
 
     def _bind_tables(self, rays: Draw) -> None:
-        """Gives the trace pass what it looks up: tables of the ray model, and the things and media that rays may meet."""
+        """Gives the trace pass what it looks up: tables of the ray model, the things and media that rays may meet, and which pixels the rays are of."""
         plan = rays.inputs.plan
         things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
-        self.tables.bind(rays, chosen(plan, *RAY_SLOTS), things)
+        self.tables.bind(rays, chosen(plan, *RAY_SLOTS), {**things, **self._ray_blocks.samplers})
         if rays.takes("meeting_reach"):
             rays.set(meeting_reach=plan.reach)
+        self.tell_blocks(rays)
+
+    @property
+    def _ray_blocks(self) -> RayBlocks:
+        if self._blocks is not None:
+            return self._blocks
+        if self._pixels is None:
+            self._pixels = RayBlocks.side_by_side(self._ctx)
+        return self._pixels
 
     @property
     def _traced(self) -> FrameInputs:
@@ -197,18 +205,15 @@ class HitMap:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan
         found = dict(zip(hit_texels.names(plan.orders, plan.meetings, plan.times), self.textures))
-        if self._blocks is not None:
-            found |= self._blocks.samplers
-        return found if self.is_sharp else {**found, **self._grid.samplers()}
+        return {**found, **(self._ray_blocks.samplers if self.is_sharp else self._grid.samplers())}
 
-    @property
-    def block_side(self) -> int:
-        """Rays along each axis of a pixel that the map holds."""
-        return self._blocks.side if self._blocks else 1
+    def tell_blocks(self, draw: Draw) -> None:
+        """Has a program that draws with `samplers` know which pixels the map's rays are of."""
+        self._ray_blocks.tell(draw)
 
     def switches(self) -> dict[str, int]:
         """The switches that shaders which read the map are to be composed with."""
-        return {"HIT_MAP_REFINED": int(not self.is_sharp), **(IN_BLOCKS if self._blocks else {})}
+        return {"HIT_MAP_REFINED": int(not self.is_sharp)}
 
     def switches_where_flat(self) -> dict[str, int] | None:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
@@ -388,6 +393,9 @@ class HitMap:
         self._things.release()
         self._reach.release()
         self._release_targets()
+        if self._pixels is not None:
+            self._pixels.shifts.release()
+            self._pixels = None
 
     def _release_targets(self) -> None:
         for target in self._targets.values():

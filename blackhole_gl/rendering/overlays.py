@@ -34,8 +34,9 @@ class Overlays:
     def _draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, switches: dict[str, int]) -> None:
         lines = self._programs.get("shade_overlays.frag", inputs, {**hit_map.switches(), **switches})
         lines.sample(hit_map.samplers())
-        given = {"plane_radii": _radii(inputs.plan), "block_side": float(hit_map.block_side)}
-        lines.set(**{name: value for name, value in given.items() if name in lines.program})
+        hit_map.tell_blocks(lines)
+        if lines.takes("plane_radii"):
+            lines.set(plane_radii=_radii(inputs.plan))
         target.use()
         target.color_mask = True, True, True, False  # alpha says where single stars are left out
         self._ctx.depth_func = "1"  # always

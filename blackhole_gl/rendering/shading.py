@@ -189,8 +189,7 @@ class ShadePass:
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
         prepared.sample(self._samplers(inputs, hit_map))
-        if prepared.takes("block_side"):
-            prepared.set(block_side=float(hit_map.block_side))
+        hit_map.tell_blocks(prepared)
         return prepared
 
     def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> Samplers:

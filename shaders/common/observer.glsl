@@ -12,30 +12,23 @@ struct RayStart {
     float sine;    // of the angle from the spin axis
 };
 
-// Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. RAYS_IN_BLOCKS: what is drawn are not pixels side by side but blocks of
-// rays, each of one pixel (blackhole_gl/rendering/edges.py).
-#if RAYS_IN_BLOCKS
-uniform sampler2D block_pixels;  // each block's pixel; below 0 of blocks that are nobody's
-uniform float block_side;        // rays along each axis of a pixel
-
-vec2 picture_place(vec2 fragment) {
-    vec2 pixel = texelFetch(block_pixels, ivec2(fragment / block_side), 0).xy;
-    return pixel + mod(fragment, block_side) / block_side;
-}
-
-// Whether the fragment is any pixel's.
-bool is_wanted(vec2 fragment) {
-    return texelFetch(block_pixels, ivec2(fragment / block_side), 0).x >= 0.0;
-}
-#else
+// Where in the picture the fragment at `fragment` (gl_FragCoord.xy) lies, in pixels. A map of exact hits holds blocks of rays, each of one pixel, which may lie
+// anywhere (blackhole_gl/rendering/ray_blocks.py); one program serves both those at edges and blocks of a single ray, side by side as the pixels are.
+// Below 0 in blocks that are nobody's.
+#if HIT_MAP_REFINED
 const float block_side = 1.0;
 
 vec2 picture_place(vec2 fragment) {
     return fragment;
 }
+#else
+uniform sampler2D block_shifts;  // in pixels, from where each block lies in the map to where its pixel lies in the picture
+uniform vec2 block_step;         // from block to block in its coordinates
+uniform float block_side;        // rays along each axis of a pixel
 
-bool is_wanted(vec2 fragment) {
-    return true;
+vec2 picture_place(vec2 fragment) {
+    vec2 place = fragment / block_side;
+    return place + textureLod(block_shifts, block_step * place, 0.0).xy;
 }
 #endif
 

@@ -105,10 +105,8 @@ def _of_scenes() -> Iterator[Wanted]:
         yield from ((path, name, made, TONE_TABLE) for path in POST)
         yield from ((path, name, made, {}) for path in BEAM)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
-        in_blocks = ["trace.frag", *(path for path, refined in _readers(made) if not refined and path != "star_layer.frag")]
         if scene.post.show_sky_grid:
             yield from (("shade_overlays.frag", name, made, {"OVERLAY_SKY": 1, "HIT_MAP_REFINED": refined}) for refined in (0, 1))
-        yield from ((path, f"{name}, in blocks", made, {"RAYS_IN_BLOCKS": 1}) for path in in_blocks)
 
 
 def _readers(made: Plan) -> Iterator[tuple[str, int]]:
@@ -147,7 +145,7 @@ def _of_instances() -> Iterator[Wanted]:
                 continue  # this model cannot
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             changes = slot == "medium" and catalogue.plug_ins(slot)[kind].traits.changes
-            beside_none = {"RAYS_IN_BLOCKS": 1, "MEETINGS": 0, "NO_MEETINGS": made.meetings}
+            beside_none = {"MEETINGS": 0, "NO_MEETINGS": made.meetings}
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"GRID": 1, "FROM_CAMERA": apart, "HIT_MAP_REFINED": apart}) for apart in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"GRID": 1, "SAMPLES": 1}), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if changes else []

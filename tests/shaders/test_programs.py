@@ -47,6 +47,15 @@ def test_however_late_it_is_a_frame_compiles_one_program(renderer):
     assert frames > 5
 
 
+def test_rays_at_edges_take_the_programs_of_all_others(renderer):
+    """A scene has a third less to compile than when those in blocks had programs of their own."""
+    alone, several = (Scene().with_values({"rays.edges": edges}) for edges in (1, 4))
+    renderer.render(alone, 0.0, SIZE)
+    before = renderer.programs.compiled
+    renderer.render(several, 0.0, SIZE)
+    assert renderer.edges.rays_a_pixel == 16 and renderer.programs.compiled == before + 1, "their mean alone is something new"
+
+
 def test_the_programs_used_last_are_kept(renderer, monkeypatch):
     renderer.render(Scene(), 0.0, SIZE)
     needed = renderer.programs.compiled

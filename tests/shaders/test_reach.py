@@ -239,7 +239,7 @@ def test_blocks_at_edges_that_stand_keep_their_places_and_freed_ones_are_used() 
     assert len(set(after.numbers)) == 4 and fresh.tolist() == [False, True, True, False]
     assert before.numbers[1] in after.numbers, "its pixel is at no edge now"
     columns, rows = after.places.T
-    np.testing.assert_array_equal(after.pixel_of_block[rows * after.size[0] + columns], after.pixels)
+    np.testing.assert_array_equal(after.shifts[rows, columns] + after.places, after.pixels)
     room = int(np.prod(before.size))
     full, one_more = (_edge_blocks(np.stack(np.divmod(np.arange(blocks), 64)[::-1], axis=-1)) for blocks in (room, room + 1))
     assert full.after(one_more.pixels, one_more.seeking, changed, size) is None
@@ -257,9 +257,10 @@ def test_no_square_of_one_kind_holds_a_block_of_the_other(side: int) -> None:
     rng = np.random.default_rng(4)
     pixels = np.stack(np.divmod(np.arange(900), 64)[::-1], axis=-1)
     seeking = rng.random(900) < 0.5
-    blocks = EdgeBlocks(pixels, rng.permutation(128 * 8)[:900], 8, seeking)
+    in_a_row, rows = _edge_blocks(pixels).size
+    blocks = EdgeBlocks(pixels, rng.permutation(in_a_row * rows)[:900], rows, seeking)
     picked = rng.random(900) < 0.7
-    fresh, size = blocks.fresh(picked, side, all_new=False), (side * 128, side * 8)
+    fresh, size = blocks.fresh(picked, side, all_new=False), (side * in_a_row, side * rows)
     rays = side * blocks.places
     for squares, kind in ((fresh.seeking, seeking), (fresh.others, ~seeking)):
         drawn = np.any([some.holds(rays, size) for some in squares if len(some)], axis=0)
@@ -268,10 +269,10 @@ def test_no_square_of_one_kind_holds_a_block_of_the_other(side: int) -> None:
 
 
 @pytest.mark.parametrize("blocks", [1, 512, 700, 1024, 5000])
-def test_the_map_of_blocks_has_room_and_never_a_power_of_two_of_rows(blocks: int) -> None:
+def test_the_map_of_blocks_has_room_and_no_side_that_is_a_power_of_two(blocks: int) -> None:
     """llvmpipe finishes each program anew for textures whose size is one: the first picture with things stood still for a second."""
     made = _edge_blocks(np.stack(np.divmod(np.arange(blocks), 128)[::-1], axis=-1))
-    assert made.rows * made.size[0] >= blocks and made.rows.bit_count() > 1
+    assert made.size[0] * made.size[1] >= blocks and all(side.bit_count() > 1 for side in made.size)
 
 
 def test_small_blocks_are_drawn_four_at_a_time_where_they_lie_together() -> None:
