@@ -19,7 +19,7 @@ from blackhole_gl.scene import Scene
 if __name__ == "__main__":
     warm_up = WarmUp()
     warm_up.start()
-    future = warm_up.submit(Scene(), (64, 36))
+    future = warm_up.submit(Scene(), (72, 40))
     time.sleep(float(sys.argv[1]))
     began = time.perf_counter()
     warm_up.close()
@@ -42,5 +42,5 @@ def test_closing_in_the_middle_of_its_work_ends_it_quietly(tmp_path):
 def test_it_draws_all_that_a_window_does(name: str) -> None:
     """Where it fails the window goes on without it, compiles by itself and stands still meanwhile."""
     warm_up = WarmUp()
-    assert warm_up.submit(presets.load([name]), (64, 36)).exception(timeout=100.0) is None
+    assert warm_up.submit(presets.load([name]), (72, 40)).exception(timeout=100.0) is None
     warm_up.close()

@@ -21,6 +21,8 @@ SCENARIOS = [name for name in re.findall(r"^def ([a-z]\w*)", TEXT, re.MULTILINE)
 REAL = re.findall(r"\w+", " ".join(re.findall(r"^WITH_THE_REAL_RENDERER = \(([^)]*)\)", TEXT, re.MULTILINE)))
 WITH_KINDS = re.findall(r"\w+", re.search(r"^WITH_KINDS = \((.*)\)", TEXT, re.MULTILINE)[1])
 LOOKING = re.findall(r"\w+", re.search(r"^LOOKING = \((.*)\)", TEXT, re.MULTILINE)[1])
+FIRST_DAY = [name for name in REAL if name.endswith("preset_switches_never_freeze")]  # the driver's cache is empty then
+TOGETHER = [name for name in REAL if name not in FIRST_DAY]
 PRETENDED = [name for name in SCENARIOS if name not in REAL + WITH_KINDS + LOOKING]
 
 
@@ -41,8 +43,6 @@ def run(names: list[str], folder: Path, **variables: str) -> None:
     (folder / "fonts").mkdir()
     shutil.copy(Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"), folder / "fonts")
     (folder / "fonts" / "broken.ttf").write_bytes(b"no font at all")
-    if any(name.endswith("preset_switches_never_freeze") for name in names):
-        environment["MESA_SHADER_CACHE_DIR"] = str(folder / "compiled")  # empty: as on the first day
     done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, cwd=folder, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stdout + done.stderr
 
@@ -64,6 +64,11 @@ def test_scenarios_with_kinds_of_the_users_own(tmp_path):
     run(WITH_KINDS, tmp_path, **BLIND)
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name.startswith("all_") else name for name in REAL])
-def test_scenario_with_the_real_renderer(name, tmp_path):
-    run([name], tmp_path)
+@pytest.mark.parametrize("names", [TOGETHER[0::2], TOGETHER[1::2]], ids=["even", "odd"])
+def test_scenarios_with_the_real_renderer(names, tmp_path):
+    run(names, tmp_path)
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name.startswith("all_") else name for name in FIRST_DAY])
+def test_switches_with_nothing_compiled(name, tmp_path):
+    run([name], tmp_path, MESA_SHADER_CACHE_DIR=str(tmp_path / "compiled"))

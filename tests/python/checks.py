@@ -24,7 +24,7 @@ import blackhole_gl as bh
 from blackhole_gl import api, gl_thread
 from blackhole_gl.notebook import Sliders
 
-SIZE = (64, 36)
+SIZE = (72, 40)
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -166,7 +166,7 @@ def hits_are_those_of_rays_through_the_pixels() -> None:
     for values in ({}, {"camera.yaw_deg": 4.0, "camera.pitch_deg": -3.0, "camera.roll_deg": 30.0}, {"camera.distance": math.inf, "camera.roll_deg": 30.0}):
         scene = bh.load("kerr", values)
         hits = bh.hits(scene, SIZE)
-        assert hits.fate.shape == (36, 64) and hits.crossing.shape == (36, 64, 3, 2)
+        assert hits.fate.shape == (40, 72) and hits.crossing.shape == (40, 72, 3, 2)
         edge = bh.critical_curve(scene, 64)
         x, y = edge.in_pixels(scene, SIZE)
         middle = np.array([x.mean(), y.mean()])
@@ -197,7 +197,7 @@ def isoradials_are_where_rays_cross_the_disk() -> None:
 def radiance_is_linear_and_before_the_tone_map() -> None:
     full = bh.load("kerr").get("disk.emission_strength")
     none, half, whole = (bh.radiance(bh.load("kerr", {"disk.emission_strength": share * full}), SIZE) for share in (0.0, 0.5, 1.0))
-    assert whole.dtype == np.float32 and whole.shape == (36, 64, 3)
+    assert whole.dtype == np.float32 and whole.shape == (40, 72, 3)
     assert abs((whole - half).sum() / (half - none).sum() - 1.0) < 1e-3  # half floats
     assert np.array_equal(bh.radiance(bh.load("kerr", {"post.exposure": 2.0}), SIZE), whole)
 

@@ -136,7 +136,7 @@ def test_a_black_picture_is_black(ctx, renderer) -> None:
 
 def test_a_view_is_neither_blurred_nor_mapped(renderer) -> None:
     scene = Scene().with_values({"post.view": "g_factor"})
-    renderer.render(scene, 0.0, (64, 36))
+    renderer.render(scene, 0.0, (72, 40))
     plain = renderer.read_rgb8()
-    renderer.render(scene.with_values({**FAR, "camera.distance": scene.camera.distance, "post.colours": "afmhot"}), 0.0, (64, 36))
+    renderer.render(scene.with_values({**FAR, "camera.distance": scene.camera.distance, "post.colours": "afmhot"}), 0.0, (72, 40))
     np.testing.assert_array_equal(renderer.read_rgb8(), plain)

@@ -23,7 +23,7 @@ from blackhole_gl.scene import Scene, catalogue, fields, presets
 from tests.portability.every_program import pairs
 
 SCENE = presets.load(["kerr"])
-INPUTS = FrameInputs.whole(planning.plan(SCENE), 0.0, (16, 9))
+INPUTS = FrameInputs.whole(planning.plan(SCENE), 0.0, (18, 10))
 
 
 @pytest.fixture
@@ -128,11 +128,11 @@ def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Con
     renderer = Renderer(ctx)
     renderer.programs = Programs(ctx, copy)
     renderer.hit_map = HitMap(ctx, renderer.programs, renderer.hit_map.tables)
-    renderer.render(SCENE, 0.0, (16, 9))
+    renderer.render(SCENE, 0.0, (18, 10))
     assert np.any(renderer.hits().fate == 1)
     edit(copy / "common" / "radial_mino.glsl", "if (s.w <= 0.0) return ESCAPED;", "if (s.w <= 0.0) return CAPTURED;")
     assert renderer.programs.reload() == []
-    assert renderer.render(SCENE, 0.0, (16, 9)).traced
+    assert renderer.render(SCENE, 0.0, (18, 10)).traced
     assert np.all(renderer.hits().fate == 2)
     renderer.release()
 
@@ -140,13 +140,13 @@ def test_a_reloaded_shader_changes_the_picture_and_traces_anew(ctx: moderngl.Con
 def test_sliders_never_compile(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     wide = {"disk.outer_radius": 20.0}  # its inner edge may then be as far out as it may be at all
     scene = presets.load(["kerr", "blackholegpu_medium"], {"rays.model": "kerr", **wide})  # a method stated in full
-    renderer.render(scene, 0.0, (16, 9))
+    renderer.render(scene, 0.0, (18, 10))
     compiled = []
     compose = renderer.programs._compose
     monkeypatch.setattr(renderer.programs, "_compose", lambda *recipe: compiled.append(recipe) or compose(*recipe))
     for key, item in fields().items():
         if item.kind in ("float", "int") and key not in ("rays.orders", "disk.tilt_deg"):  # structure: how many crossings, and whether the plane is level
-            renderer.render(scene.with_values({key: item.high}), 0.0, (16, 9))
+            renderer.render(scene.with_values({key: item.high}), 0.0, (18, 10))
     assert compiled == []
 
 
@@ -179,7 +179,7 @@ def test_every_option_draws(renderer: Renderer, key: str) -> None:
     item = fields()[key]
     for value in (False, True) if item.kind == "switch" else item.options:
         try:
-            renderer.render(Scene().with_values({key: value}), 1.0, (16, 9))
+            renderer.render(Scene().with_values({key: value}), 1.0, (18, 10))
         except ValueError as error:  # a refusal is a sentence that names the key
             assert key.split(".")[0] in str(error)
             continue

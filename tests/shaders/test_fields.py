@@ -125,9 +125,9 @@ def test_things_are_met_inside_and_outside_the_sphere_and_hide_the_disk(renderer
     """A ring in the plane z = 0 is met exactly where the disk's plane is crossed."""
     scene = scene_of("lorenz", 25.0, 70.0)
     ring = {"things.ring.kind": "annulus", "things.ring.inner_radius": inner, "things.ring.outer_radius": outer, "things.ring.tilt_deg": 0.0}
-    renderer.render(scene.with_values(ring | {"disk.enabled": False}), 0.0, (64, 36))
+    renderer.render(scene.with_values(ring | {"disk.enabled": False}), 0.0, (72, 40))
     met = renderer.hits()
-    renderer.render(scene, 0.0, (64, 36))
+    renderer.render(scene, 0.0, (72, 40))
     plain = renderer.hits()
     r = np.hypot(plain.crossing[..., 0], plain.crossing[..., 1])
     on_ring = np.any((r > 1.01 * inner) & (r < 0.99 * outer), axis=-1)
@@ -144,7 +144,7 @@ def test_media_in_a_field_shine_as_by_straight_rays_where_it_has_no_strength(ren
     scene = presets.load(["kerr"], fog | field)
     found = []
     for lensing in (True, False):
-        renderer.render(scene.with_values({"rays.lensing": lensing}), 0.0, (64, 36))
+        renderer.render(scene.with_values({"rays.lensing": lensing}), 0.0, (72, 40))
         found.append(renderer.radiance()[..., :3].astype(float))
     assert found[1].max() > 0.1
     assert np.abs(found[0] - found[1]).max() < 1e-3, "half floats have 5e-4 of what is nearly 1"

@@ -8,7 +8,7 @@ import pytest
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
-SIZE = (64, 36)
+SIZE = (72, 40)
 SHADING_ONLY = {
     "disk.temperature_k": 9000.0,
     "disk.outer_radius": 7.0,
@@ -89,7 +89,7 @@ def test_time_goes_on_without_tracing(renderer: Renderer) -> None:
 def test_a_new_size_traces_anew(renderer: Renderer) -> None:
     scene = presets.load(["kerr"])
     renderer.render(scene, 0.0, SIZE)
-    assert renderer.render(scene, 0.0, (32, 18)).traced
+    assert renderer.render(scene, 0.0, (36, 20)).traced
 
 
 @pytest.mark.parametrize("time", [0.0, 3.5, 36000.0 * 4.0])

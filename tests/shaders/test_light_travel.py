@@ -161,7 +161,7 @@ def test_what_does_not_move_looks_the_same_whenever_its_light_left(renderer: Ren
     scene = scene_with_spot(False, **{"disk.hot_spot": False})
     pictures = []
     for delayed in (False, True):
-        renderer.render(scene.with_values({"rays.light_travel": delayed}), 5.0, (64, 36))
+        renderer.render(scene.with_values({"rays.light_travel": delayed}), 5.0, (72, 40))
         pictures.append(renderer.radiance())
     assert np.array_equal(*pictures)
 

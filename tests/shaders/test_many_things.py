@@ -10,7 +10,7 @@ import numpy as np
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 
-SIZE = (32, 18)
+SIZE = (36, 20)
 
 
 def _scene(count: int) -> Scene:

@@ -140,18 +140,18 @@ def test_a_ring_that_shows_no_pixel_changes_none(renderer: Renderer) -> None:
 
 def test_nothing_of_it_is_compiled_or_kept_without_things(renderer: Renderer) -> None:
     """A scene never pays for what it does not show."""
-    renderer.render(presets.load(["kerr"]), 0.0, (16, 9))
+    renderer.render(presets.load(["kerr"]), 0.0, (18, 10))
     assert renderer.hits().met is None and len(renderer.hit_map.textures) == 3
 
 
 def test_a_slider_of_a_thing_compiles_nothing_and_traces_anew(renderer: Renderer) -> None:
     scene = presets.load(["kerr"], {"things.ring.kind": "annulus"})
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     compiled = renderer.programs.compiled
     wider = scene.with_values({"things.ring.outer_radius": 20.0})
-    assert renderer.render(wider, 0.0, (32, 18)).traced and not renderer.render(wider, 1.0, (32, 18)).traced
+    assert renderer.render(wider, 0.0, (36, 20)).traced and not renderer.render(wider, 1.0, (36, 20)).traced
     second = wider.with_values({"things.other.kind": "annulus", "things.other.tilt_deg": 60.0})
-    assert renderer.render(second, 0.0, (32, 18)).traced
+    assert renderer.render(second, 0.0, (36, 20)).traced
     assert renderer.programs.compiled == compiled
 
 
@@ -159,7 +159,7 @@ def test_a_slider_of_a_thing_compiles_nothing_and_traces_anew(renderer: Renderer
 def test_a_model_that_tells_no_paths_gives_way(renderer: Renderer, model: str) -> None:
     made = plan(_scene(model, **_ring()))
     assert made.model.key == "schwarzschild" and any("cannot meet things" in reason for reason in made.reasons)
-    renderer.render(made.scene, 0.0, (32, 18))
+    renderer.render(made.scene, 0.0, (36, 20))
     assert np.any(renderer.hits().fate == Fate.MET)
 
 

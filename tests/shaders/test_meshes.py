@@ -116,14 +116,14 @@ def test_a_mesh_shows_its_own_colours_or_ours(renderer: Renderer) -> None:
 
 def test_a_slider_of_a_mesh_compiles_nothing_and_a_bad_file_leaves_the_picture_standing(renderer: Renderer, tmp_path: Path) -> None:
     scene = _scene("kerr", kind="mesh")
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     compiled, picture = renderer.programs.compiled, renderer.read_rgb8()
     other = globe(tmp_path / "a.obj", 8, 4)
     for values in ({"things.moon.size": 3.0}, {"things.moon.file": str(other)}, {"things.second.kind": "mesh", "things.second.file": str(other)}):
-        assert renderer.render(scene.with_values(values), 0.0, (32, 18)).traced
+        assert renderer.render(scene.with_values(values), 0.0, (36, 20)).traced
     assert renderer.programs.compiled == compiled
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     other.write_text("not a mesh")
     with pytest.raises(SceneError, match="things.moon.file: the mesh .* cannot be used: .*; allowed is an OBJ"):
-        renderer.render(scene.with_values({"things.moon.file": str(other)}), 0.0, (32, 18))
+        renderer.render(scene.with_values({"things.moon.file": str(other)}), 0.0, (36, 20))
     np.testing.assert_array_equal(renderer.read_rgb8(), picture)

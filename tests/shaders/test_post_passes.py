@@ -97,7 +97,7 @@ def test_the_tone_table_follows_every_number(ctx, renderer) -> None:
     """One pass, a number after the other: nothing of the table before is left."""
 
     def picture(**values) -> np.ndarray:
-        renderer.render(Scene().with_values({**QUIET, **values}), 0.0, (32, 18))
+        renderer.render(Scene().with_values({**QUIET, **values}), 0.0, (36, 20))
         return renderer.read_rgb8().astype(int)
 
     plain = picture()

@@ -7,7 +7,7 @@ import pytest
 from blackhole_gl.rendering import frame, programs
 from blackhole_gl.scene import Scene
 
-SIZE = (16, 12)
+SIZE = (18, 12)
 
 
 @pytest.fixture

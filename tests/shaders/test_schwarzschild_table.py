@@ -89,12 +89,12 @@ def test_the_shadow_has_the_exact_size(renderer: Renderer, distance: float) -> N
 
 def test_the_table_is_made_anew_only_when_the_radius_changes(renderer: Renderer) -> None:
     tables = renderer.hit_map.tables
-    renderer.render(_scene(7.0, 60.0), 0.0, (64, 36))
+    renderer.render(_scene(7.0, 60.0), 0.0, (72, 40))
     made, traces = tables.made, renderer.hit_map.traces
     for step in range(1, 5):
-        renderer.render(_scene(7.0, 60.0 + step, **{"camera.azimuth_deg": 10.0 * step, "camera.fov_deg": 40.0 + step}), 0.0, (64, 36))
+        renderer.render(_scene(7.0, 60.0 + step, **{"camera.azimuth_deg": 10.0 * step, "camera.fov_deg": 40.0 + step}), 0.0, (72, 40))
     assert tables.made == made and renderer.hit_map.traces == traces + 4
-    renderer.render(_scene(7.5, 60.0), 0.0, (64, 36))
+    renderer.render(_scene(7.5, 60.0), 0.0, (72, 40))
     assert tables.made == made + 1
 
 

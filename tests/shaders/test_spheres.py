@@ -22,7 +22,7 @@ def _scene(*names: str, **values: object) -> Scene:
 
 
 def test_time_traces_anew_what_moves_and_nothing_that_rests_or_turns(renderer: Renderer) -> None:
-    size = (32, 18)
+    size = (36, 20)
     for values, again in (({}, False), ({"turn_rate": 1.0}, False), ({"path": "geodesic"}, True)):
         scene = _scene(**values)
         renderer.render(scene, 0.0, size)
@@ -152,12 +152,12 @@ def test_a_black_body_on_an_orbit_has_the_shifted_colour(renderer: Renderer) -> 
 
 def test_what_a_surface_looks_like_traces_nothing_anew(renderer: Renderer) -> None:
     scene = _scene("kerr", surface="checker")
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     compiled = renderer.programs.compiled
     for name, value in (("colour", (0.1, 0.2, 0.3)), ("surface", "black_body"), ("lighting", "glowing"), ("squares_around", 40), ("ambient", 0.5)):
         scene = scene.with_values({f"things.moon.{name}": value})
-        assert not renderer.render(scene, 0.0, (32, 18)).traced, name
-    assert renderer.render(scene.with_values({"things.moon.radius": 2.0}), 0.0, (32, 18)).traced
+        assert not renderer.render(scene, 0.0, (36, 20)).traced, name
+    assert renderer.render(scene.with_values({"things.moon.radius": 2.0}), 0.0, (36, 20)).traced
     assert renderer.programs.compiled == compiled
 
 
@@ -206,7 +206,7 @@ def test_a_picture_finer_than_the_pixels_does_not_blink(renderer: Renderer, tmp_
 
 def test_a_picture_that_is_not_there_is_said_and_no_picture_is_one_colour(renderer: Renderer, tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"things.moon.image: the picture .*missing.png cannot be used"):
-        renderer.render(_glowing(str(tmp_path / "missing.png")), 0.0, (32, 18))
-    renderer.render(_glowing(""), 0.0, (64, 36))
+        renderer.render(_glowing(str(tmp_path / "missing.png")), 0.0, (36, 20))
+    renderer.render(_glowing(""), 0.0, (72, 40))
     met = renderer.hits().met[..., 0, 0] >= 0
     np.testing.assert_allclose(renderer.radiance()[::-1][met], np.broadcast_to((0.85, 0.8, 0.7), (met.sum(), 3)), atol=1e-3)

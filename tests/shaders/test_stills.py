@@ -82,7 +82,7 @@ def test_a_16_bit_picture_is_the_linear_radiance(renderer: Renderer, tmp_path: P
     """Read by FFmpeg, through PyAV: within half a step of 8/65535."""
     import av
 
-    scene, size = presets.load(["kerr"]), (64, 36)
+    scene, size = presets.load(["kerr"]), (72, 40)
     still_files.write_linear(renderer, tmp_path / "linear.png", scene, 3.0, size)
     with av.open(str(tmp_path / "linear.png")) as container:
         frame = next(container.decode(video=0))

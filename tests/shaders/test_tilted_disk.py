@@ -86,7 +86,7 @@ def test_the_picture_depends_on_the_camera_s_azimuth(renderer: Renderer) -> None
     scene = presets.load(["kerr", "smooth"], {"disk.tilt_deg": 40.0, "disk.tilt_azimuth_deg": 70.0, "sky.enabled": False})
     pictures = []
     for azimuth in (0.0, 120.0):
-        renderer.render(scene.with_values({"camera.azimuth_deg": azimuth}), 0.0, (64, 36))
+        renderer.render(scene.with_values({"camera.azimuth_deg": azimuth}), 0.0, (72, 40))
         pictures.append(renderer.radiance())
     assert np.abs(pictures[0] - pictures[1]).max() > 0.1
 
@@ -94,7 +94,7 @@ def test_the_picture_depends_on_the_camera_s_azimuth(renderer: Renderer) -> None
 @pytest.mark.parametrize("pixel", [(0.3, 0.5), (0.7, 0.45)])
 def test_the_values_of_a_pixel_are_the_twin_s(renderer: Renderer, pixel: tuple[float, float]) -> None:
     scene = presets.load(["kerr", "reference"], {"disk.tilt_deg": 40.0, "disk.tilt_azimuth_deg": 70.0, "camera.azimuth_deg": 15.0})
-    renderer.render(scene, 0.0, (64, 36))
+    renderer.render(scene, 0.0, (72, 40))
     seen = renderer.values_at(pixel)
     assert seen is not None and seen.disk is not None
     x, y = (2.0 * (int(pixel[0] * 64) + 0.5) - 64) / 36, (2.0 * (int(pixel[1] * 36) + 0.5) - 36) / 36

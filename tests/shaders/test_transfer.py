@@ -164,36 +164,36 @@ def test_an_opaque_disk_hides_the_medium_behind_it(renderer: Renderer) -> None:
 def test_what_does_not_change_is_marched_once(renderer: Renderer) -> None:
     """Before a disk that turns, too."""
     scene = presets.load(["kerr"], {**BALL, "rays.edges": 1})
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     marched = renderer.transfer.marches
     for time in (1.0, 2.0):
-        renderer.render(scene, time, (32, 18))
+        renderer.render(scene, time, (36, 20))
     assert renderer.transfer.marches == marched
-    renderer.render(scene.with_values({"media.fog.brightness": 2.0}), 2.0, (32, 18))
+    renderer.render(scene.with_values({"media.fog.brightness": 2.0}), 2.0, (36, 20))
     assert renderer.transfer.marches == marched + 1
 
 
 def test_light_that_no_time_changes_is_shaded_once(renderer: Renderer) -> None:
     """The picture is the same to the bit; a disk's pattern, or another camera, is shaded anew."""
     scene = presets.load(["kerr"], {**BALL, "disk.enabled": False})
-    renderer.render(scene, 0.0, (32, 18))
+    renderer.render(scene, 0.0, (36, 20))
     first, shaded = renderer.read_rgb8(), renderer.shadings
-    renderer.render(scene, 5.0, (32, 18))
+    renderer.render(scene, 5.0, (36, 20))
     assert renderer.shadings == shaded
     np.testing.assert_array_equal(renderer.read_rgb8(), first)
-    renderer.render(scene.with_values({"sky.brightness": 2.0}), 5.0, (32, 18))
-    renderer.render(scene.with_values({"camera.azimuth_deg": 9.0, "sky.brightness": 2.0}), 5.0, (32, 18))
+    renderer.render(scene.with_values({"sky.brightness": 2.0}), 5.0, (36, 20))
+    renderer.render(scene.with_values({"camera.azimuth_deg": 9.0, "sky.brightness": 2.0}), 5.0, (36, 20))
     assert renderer.shadings == shaded + 2
     turning = presets.load(["kerr"], BALL)
     for time in (0.0, 1.0):
-        renderer.render(turning, time, (32, 18))
+        renderer.render(turning, time, (36, 20))
     assert renderer.shadings == shaded + 4
 
 
 def test_nothing_of_it_is_compiled_without_media(renderer: Renderer) -> None:
     """A scene never pays for what it does not show."""
     marched = renderer.transfer.marches
-    renderer.render(presets.load(["kerr"], {"things.ring.kind": "annulus"}), 0.0, (16, 9))
+    renderer.render(presets.load(["kerr"], {"things.ring.kind": "annulus"}), 0.0, (18, 10))
     assert renderer.transfer.marches == marched
 
 
