@@ -47,7 +47,7 @@ def run(names: list[str], folder: Path, **variables: str) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-# A process takes seconds to start, so each runs a few; two parts keep two workers busy.
+# A process takes seconds to start, and compiles what it draws with, so each runs a few; two parts keep two workers busy.
 @pytest.mark.parametrize("names", [PRETENDED[0::2], PRETENDED[1::2]], ids=["even", "odd"])
 def test_scenarios_with_a_pretended_renderer(names, tmp_path):
     run(names, tmp_path, **BLIND)
@@ -64,7 +64,7 @@ def test_scenarios_with_kinds_of_the_users_own(tmp_path):
     run(WITH_KINDS, tmp_path, **BLIND)
 
 
-@pytest.mark.parametrize("names", [TOGETHER[0::2], TOGETHER[1::2]], ids=["even", "odd"])
+@pytest.mark.parametrize("names", [TOGETHER[0::3], TOGETHER[1::3], TOGETHER[2::3]], ids=["first", "second", "third"])
 def test_scenarios_with_the_real_renderer(names, tmp_path):
     run(names, tmp_path)
 
