@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Generator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..output import png
-from ..rendering.annotation import annotated
+from ..rendering import still_files
+from ..rendering.annotation import annotated, is_annotated
 from ..rendering.views import View
 from ..scene import Scene, presets
 from .divided import RightSide, joined
@@ -56,7 +57,7 @@ class Still:
         self._renderer = renderer
         self._sides = [order.scene] if order.right is None else [order.scene, order.right.scene]
         self._drawn: list[np.ndarray] = []
-        self._drawing: Iterator[float] | None = self._draw_sides()
+        self._drawing = self._draw_sides()
         self._writer = ThreadPoolExecutor(1)  # a large picture takes seconds to compress
         self._written: Future | None = None
 
@@ -92,13 +93,16 @@ class Still:
 
     def close(self) -> None:
         """Gives all back; what is being written is still written."""
-        self._drawing = None
+        self._drawing.close()
         self._renderer.release()
         self._writer.shutdown()
 
-    def _draw_sides(self) -> Iterator[float]:
-        """Yields the share that is drawn."""
+    def _draw_sides(self) -> Generator[float]:
+        """Yields the share that is drawn. What nothing is drawn over goes into its file meanwhile, so that no more than some bands of it are held."""
         order = self.order
+        if order.right is None and not is_annotated(order.scene, self._renderer.view_of(order.scene)):
+            yield from still_files.write(self._renderer, order.path, order.scene, order.time, order.size, order.samples, TILE)
+            return
         for side in self._sides:
             for share in self._renderer.still(side, order.time, order.size, order.samples, TILE):
                 yield (len(self._drawn) + share) / len(self._sides)
@@ -106,12 +110,13 @@ class Still:
 
     def _draw(self) -> bool:
         """Draws one tile with one ray a pixel; whether that was the last."""
-        assert self._drawing is not None
         share = next(self._drawing, None)
         self.share = 1.0 if share is None else share
         return share is None
 
     def _write(self, view: View | None) -> None:
         order = self.order
+        if not self._drawn:
+            return  # it is
         pixels = self._drawn[0] if order.right is None else joined(self._drawn[0], self._drawn[1], order.right.share)
         png.write(order.path, annotated(pixels, order.scene, view), presets.picture_text(order.scene, order.time, order.path.absolute().parent))

@@ -10,15 +10,21 @@ from ..physics import projection
 from ..scene import Camera, Scene, presets
 from .annotation import annotated, is_annotated
 from .frame import Renderer
+from .stills import TILE
 
 WHITE = 8.0
 """Radiance that a 16-bit PNG's 65535 stands for."""
 
 
-def write(renderer: Renderer, path: Path, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> Iterator[float]:
+def write(
+    renderer: Renderer, path: Path, scene: Scene, time: float, size: tuple[int, int], samples: int = 1, tile: int = TILE
+) -> Iterator[float]:
     """Draws `scene` at scene time `time` (r_s/c) and writes it to `path`, whole or not at all; yields the share done.
 
     As long as neither labels nor a view's legend are drawn over it, no more than some bands of it are held.
+
+    Args:
+        tile: side in pixels, even, of the tiles that it is drawn in.
 
     Raises:
         SceneError, ValueError: it cannot be drawn.
@@ -26,10 +32,10 @@ def write(renderer: Renderer, path: Path, scene: Scene, time: float, size: tuple
     """
     with png.opened(path, size, presets.picture_text(scene, time, path.absolute().parent), metadata(scene.camera, size)) as file:
         if is_annotated(scene, renderer.view_of(scene)):
-            yield from renderer.still(scene, time, size, samples)
+            yield from renderer.still(scene, time, size, samples, tile)
             file.write(annotated(renderer.read_rgb8(), scene, renderer.view_of(scene)))
             return
-        for share, rows in renderer.bands([(scene, time)], size, samples):
+        for share, rows in renderer.bands([(scene, time)], size, samples, tile):
             if rows is not None:
                 file.write(rows)
             yield share

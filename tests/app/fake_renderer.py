@@ -78,6 +78,11 @@ class FakeRenderer:
             clock.sleep(0.005)
             yield (done + 1) / (10 * samples)
 
+    def bands(self, moments, size, samples, tile):
+        for scene, time in moments:
+            for share in self.still(scene, time, size, samples, tile):
+                yield share, self.still_pixels if share == 1.0 else None
+
     def read_rgb8(self):
         return self.still_pixels
 
