@@ -166,8 +166,8 @@ def save(
     lengths: str = "r_s",
     linear: bool = False,
 ) -> Path:
-    """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` the picture, ``.toml`` a preset, both of which `load` and the viewer open again;
-    ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay.
+    """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` and ``.jpg`` the picture, ``.toml`` a preset, all of which `load` and the viewer
+    open again; ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay.
 
     Args:
         lengths: unit of all lengths in a preset, ``r_s`` or ``M``; `load` reads both.
@@ -185,10 +185,12 @@ def save(
         return preset_files.save(scene, path, time=time or None, unit=lengths)
     if suffix in layers.SUFFIXES:
         layers.write(path, of_picture(_shared, layers.measured, scene, size, time, samples), scene, float(time))
-    elif suffix == ".png":
+    elif suffix in still_files.SUFFIXES:
+        if linear and suffix != ".png":
+            raise ValueError(f"linear: got {path.name}; allowed with it is .png, and {', '.join(layers.SUFFIXES)} are linear anyway")
         of_picture(_shared, still_files.save, scene, size, time, samples, path=path, linear=linear)
     else:
-        raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is .png, .toml, {', '.join(layers.SUFFIXES)}")
+        raise ValueError(f"{path}: got the suffix {path.suffix!r}; allowed is {', '.join((*still_files.SUFFIXES, '.toml', *layers.SUFFIXES))}")
     return path
 
 

@@ -24,7 +24,7 @@ Presets = Annotated[
     Option(
         "--preset",
         "-p",
-        help="A preset's name, a TOML file, or a PNG made by this program. Repeatable: physics + look + quality.",
+        help="A preset's name, a TOML file, or a picture made by this program. Repeatable: physics + look + quality.",
         default="kerr",
     ),
 ]

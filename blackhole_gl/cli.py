@@ -118,7 +118,7 @@ def view(
 
 def render(
     out: Annotated[
-        Path | None, Option("--out", "-o", help="The PNG to write, with its scene inside; - is standard output. Or .exr, .fits, .npz: radiance with layers.")
+        Path | None, Option("--out", "-o", help="The PNG or .jpg to write, its scene inside; - is standard output. Or .exr, .fits, .npz: radiance with layers.")
     ] = None,
     names: Named = None,
     preset: Presets = None,
@@ -138,11 +138,11 @@ def render(
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
-        refuse_unwritable(out, (".png", ".exr", ".fits", ".npz"), "a picture")
+        refuse_unwritable(out, (".png", ".jpg", ".jpeg", ".exr", ".fits", ".npz"), "a picture")
     refuse_unmet(scene, set_)
     if out is not None:
         if linear and out.suffix.lower() not in ("", ".png"):
-            raise SceneError("--linear", f"got {out.suffix}, which holds linear radiance anyway; allowed is .png")
+            raise SceneError("--linear", f"got {out.suffix}; allowed is .png, and .exr, .fits and .npz hold linear radiance anyway")
         _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend, linear=linear)
     if flux:
         _print_flux(scene, size_of(size), time_of(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)

@@ -10,7 +10,7 @@ from typing import Any
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
-SCENES = ("Scenes and pictures", "*.toml *.png")
+SCENES = ("Scenes and pictures", "*.toml *.png *.jpg *.jpeg")
 TOML = ("Scenes", "*.toml")
 PICTURES = ("Pictures", "*.png")
 _PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # what shows the dialogs elsewhere than on Windows and macOS

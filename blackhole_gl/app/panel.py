@@ -121,7 +121,7 @@ def _files(state: WindowState) -> None:
     edited, state.file = imgui.input_text("##file", state.file)
     if edited:
         state.replace_file = ""
-    wrapped_tooltip(f"A preset (.toml) or a picture saved here (.png). A bare name lies in {presets.user_presets_dir()}.")
+    wrapped_tooltip(f"A preset (.toml) or a picture saved by this program (.png, .jpg). A bare name lies in {presets.user_presets_dir()}.")
     imgui.same_line()
     if imgui.button("Save", (width, 0.0)):
         scene_files.save(state)

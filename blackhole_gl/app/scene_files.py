@@ -19,7 +19,7 @@ from .state import WindowState
 def path_of(text: str) -> Path:
     """The file that the panel's file field means: a bare name lies among the user's presets, and ``.toml`` may be left out."""
     path = Path(text.strip()).expanduser()
-    if path.suffix.lower() not in (".toml", ".png"):
+    if path.suffix.lower() not in presets.FILES:
         path = path.with_name(path.name + ".toml") if path.name else path
     return path if path.is_absolute() or len(path.parts) > 1 else presets.user_presets_dir() / path
 

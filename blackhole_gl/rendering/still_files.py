@@ -1,16 +1,18 @@
-"""Stills as PNG files: rows are packed while others are drawn, with what viewers of panoramas look for."""
+"""Stills as files, with what viewers of panoramas look for. Rows of a PNG are packed while others are drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..output import png, xmp
+from ..output import jpeg, png, xmp
 from ..physics import projection
 from ..scene import Camera, Scene, presets
 from .annotation import annotated, is_annotated
 from .frame import Renderer
 from .stills import TILE
+
+SUFFIXES = (".png", *jpeg.SUFFIXES)
 
 WHITE = 8.0
 """Radiance that a 16-bit PNG's 65535 stands for."""
@@ -19,9 +21,9 @@ WHITE = 8.0
 def write(
     renderer: Renderer, path: Path, scene: Scene, time: float, size: tuple[int, int], samples: int = 1, tile: int = TILE
 ) -> Iterator[float]:
-    """Draws `scene` at scene time `time` (r_s/c) and writes it to `path`, whole or not at all; yields the share done.
+    """Draws `scene` at scene time `time` (r_s/c) and writes it to `path`, a JPEG by its suffix or else a PNG, whole or not at all; yields the share done.
 
-    As long as neither labels nor a view's legend are drawn over it, no more than some bands of it are held.
+    As long as it is a PNG, and neither labels nor a view's legend are drawn over it, no more than some bands of it are held.
 
     Args:
         tile: side in pixels, even, of the tiles that it is drawn in.
@@ -30,7 +32,12 @@ def write(
         SceneError, ValueError: it cannot be drawn.
         OSError: it cannot be written.
     """
-    with png.opened(path, size, presets.picture_text(scene, time, path.absolute().parent), metadata(scene.camera, size)) as file:
+    text = presets.picture_text(scene, time, path.absolute().parent)
+    if path.suffix.lower() in jpeg.SUFFIXES:
+        yield from renderer.still(scene, time, size, samples, tile)
+        jpeg.write(path, annotated(renderer.read_rgb8(), scene, renderer.view_of(scene)), text, metadata(scene.camera, size))
+        return
+    with png.opened(path, size, text, metadata(scene.camera, size)) as file:
         if is_annotated(scene, renderer.view_of(scene)):
             yield from renderer.still(scene, time, size, samples, tile)
             file.write(annotated(renderer.read_rgb8(), scene, renderer.view_of(scene)))

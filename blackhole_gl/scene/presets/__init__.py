@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ...output import png
+from ...output import jpeg, png
 from ...resources import presets_dir, user_config_dir
 from ...text_files import decimal_comma, read_text
 from .. import Scene, fields, instances
@@ -37,9 +37,13 @@ from .reading import GROUPS, Preset, PresetError, parse, unknown_key
 from .writing import dumps, picture_text, save
 
 __all__ = [
-    "DEFAULT_PRESETS", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "departures", "differing", "dumps", "from_png",
+    "DEFAULT_PRESETS", "FILES", "GROUPS", "USER_GROUP", "Preset", "PresetError", "PresetInfo", "available", "departures", "differing", "dumps", "from_png",
     "last_timed", "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir",
 ]
+
+_CARRIED = {".png": png.read_scene_text, **dict.fromkeys(jpeg.SUFFIXES, jpeg.read_scene_text)}
+FILES = (".toml", *_CARRIED)
+"""How the names of files end that hold a preset: its text, and pictures that carry it."""
 
 USER_GROUP = "user"
 DEFAULT_PRESETS = ("kerr",)
@@ -105,7 +109,7 @@ def _find(name: str) -> tuple[Path, str]:
 
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.4)
     hint = f"; did you mean {near[0]}?" if near else "."
-    raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in .toml or .png.")
+    raise PresetError(f"no preset is called {name!r}{hint} Available are {', '.join(names)}; a file's name ends in {', '.join(FILES[:-1])} or {FILES[-1]}.")
 
 
 def load(
@@ -116,7 +120,7 @@ def load(
     Where nothing but looks, qualities and steps is named, they lie over `DEFAULT_PRESETS`.
 
     Args:
-        names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``).
+        names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``, ``.jpg``).
         overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``; lists as in TOML, paths from
             the working folder.
         any_file: the presets may name files outside their own folders, too.
@@ -213,7 +217,7 @@ def from_png(path: str | Path) -> Scene:
 
 
 def read(name_or_path: str | Path, *, any_file: bool = False) -> Preset:
-    """The preset of that name, or in that ``.toml`` file, or carried by that ``.png``; `any_file`: it may name files outside its own folder.
+    """The preset of that name, or in that ``.toml`` file, or carried by that picture; `any_file`: it may name files outside its own folder.
 
     Raises:
         PresetError: not found, not readable, not TOML, or a value that a scene cannot hold.
@@ -224,7 +228,7 @@ def read(name_or_path: str | Path, *, any_file: bool = False) -> Preset:
         path, group = _find(str(name_or_path))
     source = str(path)
     try:
-        text = png.read_scene_text(path) if path.suffix.lower() == ".png" else read_text(path)
+        text = _CARRIED.get(path.suffix.lower(), read_text)(path)
     except OSError as error:
         raise PresetError(f"cannot be read: {error.strerror or error}", source=source) from None
     except ValueError as error:
@@ -234,7 +238,7 @@ def read(name_or_path: str | Path, *, any_file: bool = False) -> Preset:
 
 
 def _is_path(name_or_path: str | Path) -> bool:
-    return isinstance(name_or_path, Path) or name_or_path.lower().endswith((".toml", ".png"))
+    return isinstance(name_or_path, Path) or name_or_path.lower().endswith(FILES)
 
 
 def _overridden(scene: Scene, overrides: Mapping[str, Any], source: str) -> Scene:
