@@ -13,6 +13,8 @@ A flight is a TOML file::
 
 Numbers run through their keys on monotone cubics (Fritsch & Carlson 1980): smooth, and never beyond the keys on either side. All else changes at its key.
 
+``lengths = "M"`` at the top says that all of its lengths and times of the scene are in M = GM/c², half of r_s; seconds stay seconds.
+
 With a way the camera's place is no matter of keys::
 
     [way]
@@ -37,12 +39,12 @@ from pathlib import Path
 from typing import Any
 
 from ..resources import flights_dir
-from ..scene import Scene, SceneError
+from ..scene import Scene, SceneError, lengths
 from ..text_files import TextError, read_text
 from .flight import WAYS, Flight, Keyframe, Note, Way
 from .space_time import space_time
 
-_ENTRIES = ("title", "rate", "keys", "way", "presets", "notes")
+_ENTRIES = ("title", "lengths", "rate", "keys", "way", "presets", "notes")
 _WAY_ENTRIES = ("kind", "rate", "distance", "slows")
 _DECIDED = {"rain": ("camera.distance", "camera.observer"), "orbit": ("camera.distance", "camera.observer", "camera.azimuth_deg")}
 
@@ -85,11 +87,14 @@ def parse(text: str, scene: Scene, source: str = "flight", start: float = 0.0) -
     """The flight in the TOML `text`; as `read`."""
     tables = _tables(text, source)
     _refuse_unknown(tables, _ENTRIES, source, "")
-    way = _way(tables["way"], scene, source) if "way" in tables else None
-    keys = _keys(tables.get("keys", []), scene, source, _DECIDED[way.kind] if way else ())
+    unit = tables.get("lengths", "r_s")
+    if unit not in lengths.UNITS:
+        raise FlightError(source, f"lengths: got {unit!r}; allowed is one of {', '.join(lengths.UNITS)}")
+    way = _way(tables["way"], scene, source, unit) if "way" in tables else None
+    keys = _keys(tables.get("keys", []), scene, source, _DECIDED[way.kind] if way else (), unit)
     if not keys and way is None:
         raise FlightError(source, "has neither [[keys]] nor a [way]: nothing would move")
-    rate = _number(tables.get("rate", scene.playback.rate), 0.0, 100.0, "rate", source)
+    rate = _length(tables["rate"], 0.0, 100.0, "rate", source, unit) if "rate" in tables else scene.playback.rate
     return Flight(scene, keys, rate, way, str(tables.get("title", "")), start, _notes(tables.get("notes", []), source))
 
 
@@ -119,7 +124,7 @@ def _notes(given: Any, source: str) -> tuple[Note, ...]:
     return tuple(sorted(found, key=lambda note: note.at))
 
 
-def _keys(given: Any, scene: Scene, source: str, decided: tuple[str, ...]) -> tuple[Keyframe, ...]:
+def _keys(given: Any, scene: Scene, source: str, decided: tuple[str, ...], unit: str) -> tuple[Keyframe, ...]:
     if not isinstance(given, list) or not all(isinstance(entry, dict) for entry in given):
         raise FlightError(source, "keys: allowed is a [[keys]] for each keyframe")
     found: list[Keyframe] = []
@@ -135,26 +140,29 @@ def _keys(given: Any, scene: Scene, source: str, decided: tuple[str, ...]) -> tu
             if key in decided:
                 raise FlightError(source, f"{place}: {key} is decided by the [way]; allowed is any other key")
             try:
-                values[key] = scene.field(key).check(value)
+                item = scene.field(key)
+                values[key] = lengths.in_rs(item, lengths.field_in(item, unit).check(value), unit)
             except SceneError as error:
                 raise FlightError(source, f"{place}: {error}") from None
         found.append(Keyframe(at, values))
     return tuple(found)
 
 
-def _way(given: Any, scene: Scene, source: str) -> Way:
+def _way(given: Any, scene: Scene, source: str, unit: str) -> Way:
     if not isinstance(given, dict):
         raise FlightError(source, "way: allowed is a table [way]")
     _refuse_unknown(given, _WAY_ENTRIES, source, "[way] ")
     kind = given.get("kind")
     if kind not in WAYS:
         raise FlightError(source, f"[way] kind: got {kind!r}; allowed is one of {', '.join(WAYS)}")
-    rate = _number(given.get("rate", 1.0), 1e-6, 1e4, "[way] rate", source)
+    rate = _length(given["rate"], 1e-6, 1e4, "[way] rate", source, unit) if "rate" in given else 1.0
     horizon = space_time(scene).horizon_radius
-    distance = _number(given["distance"], 0.0, 1e4, "[way] distance", source) if "distance" in given else None
+    distance = _length(given["distance"], 0.0, 1e4, "[way] distance", source, unit) if "distance" in given else None
     begins = scene.camera.distance if distance is None else distance
     if space_time(scene).kind == "flat" or not (horizon < begins < math.inf):
-        raise FlightError(source, f"[way] begins at {begins:g} r_s; allowed is outside the horizon ({horizon:.4g} r_s) of a hole, and not infinite")
+        scale = lengths.factor(unit)
+        there, edge = f"{scale * begins:g} {unit}", f"{scale * horizon:.4g} {unit}"
+        raise FlightError(source, f"[way] begins at {there}; allowed is outside the horizon ({edge}) of a hole, and not infinite")
     slows = given.get("slows", False)
     if not isinstance(slows, bool) or (slows and kind != "rain"):
         raise FlightError(source, f"[way] slows: got {slows!r}; allowed is true or false, and true for a fall, whose radius changes")
@@ -171,6 +179,12 @@ def _number(value: Any, low: float, high: float, name: str, source: str) -> floa
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise FlightError(source, f"{name}: got {value!r}; allowed is {low:g} to {high:g}")
     return float(value)
+
+
+def _length(value: Any, low: float, high: float, name: str, source: str, unit: str) -> float:
+    """In r_s what the file has in `unit`; `low` and `high` are in r_s, too."""
+    scale = lengths.factor(unit)
+    return _number(value, low * scale, high * scale, name, source) / scale
 
 
 def _flat(table: Mapping[str, Any], before: str = "") -> dict[str, Any]:

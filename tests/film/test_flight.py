@@ -38,6 +38,18 @@ def test_switches_and_choices_change_at_their_keys() -> None:
     assert [flown.at(at).scene.rays.orders for at in (2.0, 2.99, 3.0)] == [1, 1, 3]
 
 
+@pytest.mark.parametrize("way", ["", '[way]\nkind = "rain"\nrate = {rate}\ndistance = {far}\n'], ids=["keys", "a fall"])
+def test_a_flight_in_M_is_the_same_one(way: str) -> None:
+    """r_s = 2 M: lengths, rates and ranges; angles and seconds stay."""
+    key = "camera.fov_deg = 50" if way else "camera.distance = {near}"
+    text = "rate = {rate}\n" + keys("at = 0\ndisk.outer_radius = {far}", f"at = 4\ndisk.outer_radius = {{near}}\n{key}") + way
+    told = {"rate": 2.0, "far": 18.0, "near": 9.0}
+    flown = flight_files.parse(text.format(**told), STILL, start=1.0)
+    in_m = flight_files.parse('lengths = "M"\n' + text.format(**{name: 2.0 * value for name, value in told.items()}), STILL, start=1.0)
+    for at in (0.0, 1.3, 4.0):
+        assert repr(in_m.at(at)) == repr(flown.at(at)), "halves of doubles are the same numbers, and NaN is NaN"
+
+
 def test_scene_time_runs_by_the_rate() -> None:
     flown = flight_files.parse("rate = 2.5\n" + keys("at = 0\npost.exposure = 0.0", "at = 4\npost.exposure = 1.0"), STILL, start=10.0)
     assert [flown.at(at).time for at in (0.0, 2.0)] == [10.0, 15.0]
@@ -95,7 +107,7 @@ def test_an_orbit_turns_by_keplers_law_and_its_clock_is_slow() -> None:
 
 
 MISTAKES = {
-    "nothing = 1": "nothing: no such entry; allowed are title, rate, keys, way, presets, notes",
+    "nothing = 1": "nothing: no such entry; allowed are title, lengths, rate, keys, way, presets, notes",
     "rate = 1.0": "neither [[keys]] nor a [way]",
     "rate = true\n[way]\nkind = 'orbit'": "rate: got True; allowed is 0 to 100",
     "x = ": "not TOML",
@@ -110,6 +122,9 @@ MISTAKES = {
     "[way]\nkind = 'rain'\n" + keys("at = 0\ncamera.distance = 3"): "camera.distance is decided by the [way]",
     "notes = 3\n" + keys("at = 0"): "[[notes]] 1: allowed are at",
     "[[notes]]\nat = 1\n" + keys("at = 0"): "[[notes]] 1: allowed are at, the second of the film that it begins at, and text",
+    "lengths = 'm'\n" + keys("at = 0"): "lengths: got 'm'; allowed is one of r_s, M",
+    "lengths = 'M'\n[way]\nkind = 'rain'\ndistance = 0.4": "[way] begins at 0.4 M; allowed is outside the horizon (1.436 M)",
+    "lengths = 'M'\n" + keys("at = 0\ndisk.outer_radius = 1e9"): "disk.outer_radius: got 1000000000.0; allowed is a number from 2 to 200 M",
     "keys = 3": "keys: allowed is a [[keys]] for each keyframe",
 }
 
