@@ -21,7 +21,7 @@ import numpy as np
 from PIL import Image
 
 import blackhole_gl as bh
-from blackhole_gl import api, gl_thread
+from blackhole_gl import gl_thread, renderers
 from blackhole_gl.notebook import Sliders
 
 SIZE = (72, 40)
@@ -121,12 +121,12 @@ def what_cannot_be_is_told_and_the_next_is_drawn() -> None:
 
 def a_renderer_that_failed_half_way_is_made_anew() -> None:
     thread = gl_thread.GlThread()
-    truth = thread.call(api._rendered, bh.load("kerr"), 0.0, SIZE, 1)
+    truth = thread.call(renderers._rendered, bh.load("kerr"), 0.0, SIZE, 1)
     try:
         thread.call(_fail)
     except RuntimeError as error:
         assert str(error) == "half way"
-    assert np.array_equal(thread.call(api._rendered, bh.load("kerr"), 0.0, SIZE, 1), truth)
+    assert np.array_equal(thread.call(renderers._rendered, bh.load("kerr"), 0.0, SIZE, 1), truth)
     thread.close()
 
 
