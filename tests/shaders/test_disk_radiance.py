@@ -11,7 +11,7 @@ from blackhole_gl.physics.disk_profile import page_thorne_flux
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
-SIZE = (128, 72)
+SIZE = (96, 54)
 OUTER = 10.0
 # Half floats keep eleven bits: 5e-4 at worst, and three orders' sum is rounded once.
 BOUND = 1e-3

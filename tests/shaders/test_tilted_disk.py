@@ -94,10 +94,11 @@ def test_the_picture_depends_on_the_camera_s_azimuth(renderer: Renderer) -> None
 @pytest.mark.parametrize("pixel", [(0.3, 0.5), (0.7, 0.45)])
 def test_the_values_of_a_pixel_are_the_twin_s(renderer: Renderer, pixel: tuple[float, float]) -> None:
     scene = presets.load(["kerr", "reference"], {"disk.tilt_deg": 40.0, "disk.tilt_azimuth_deg": 70.0, "camera.azimuth_deg": 15.0})
-    renderer.render(scene, 0.0, (72, 40))
+    width, height = size = 72, 40
+    renderer.render(scene, 0.0, size)
     seen = renderer.values_at(pixel)
     assert seen is not None and seen.disk is not None
-    x, y = (2.0 * (int(pixel[0] * 64) + 0.5) - 64) / 36, (2.0 * (int(pixel[1] * 36) + 0.5) - 36) / 36
+    x, y = (2.0 * (int(pixel[0] * width) + 0.5) - width) / height, (2.0 * (int(pixel[1] * height) + 0.5) - height) / height
     half = np.tan(np.radians(0.5 * scene.camera.fov_deg))
     psi, chi = np.arctan(half * np.hypot(x, y)), np.arctan2(y, x)
     twin = listed_rays.trace_by_reference(scene, np.array([[psi, chi]]))
