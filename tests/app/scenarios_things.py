@@ -26,6 +26,7 @@ def a_click_picks_a_thing(hands: Hands) -> None:
     """It is outlined and the panel shows it; ESC or a click elsewhere lets it go, DELETE removes it. A drag and clicks that are others' pick nothing."""
     hands.press(Key.p)
     hands.state.change({**FAR, **MOON})
+    hands.settle()
     wait(hands, lambda: hands.window.picture.is_current and hands.window.picture.is_sharp, seconds=100.0)
     click_the_picture(hands, 0.5, 0.5)
     assert hands.state.picked == "things.moon"

@@ -31,7 +31,7 @@ assert not catalogue.mistakes(), catalogue.mistakes()
 renderer = Renderer(create_headless())
 
 def drawn(names, changes):
-    renderer.render(presets.load(names, changes), 5.0, (72, 40))
+    renderer.render(presets.load(names, changes), 5.0, (64, 36))
     hits = renderer.hits()
     assert not np.any(hits.fate == 0), changes
     assert np.all(np.isfinite(renderer.radiance())), changes
