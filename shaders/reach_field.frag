@@ -61,7 +61,7 @@ void main() {
         steps += reach_stride;
     } while (steps < reach_steps && any_of_quad(fate == UNRESOLVED));
     Spot end = straight_end(here);
-    Reached found = balls_near(here, end, margin, reach_margin(end));
+    Reached found = balls_near_straight(here, end, margin, reach_margin(end));
     if (fate != UNRESOLVED) reached = reached_on(reached, found);
     node = packed_node(fate, reached);
 }

@@ -22,6 +22,9 @@ out uint node;
 
 const int PIECES = 4; // of a step that is no cubic in space
 
+// Cosine of how far a way turns at most, so that what lies beside it is between what lies beside its ends.
+const float STRAIGHT = 0.9;
+
 // What is met in such a step into the hole is found on a curve that may leave the ray by this share of the distance from it (common/curve.glsl).
 const float BENT = 0.5, BENT_WITHIN = 1.5;
 
@@ -77,14 +80,16 @@ void main() {
         margin = reach_margin(here);
         int pieces = under_way && is_bent(old, path, before, here) ? PIECES : 1, done = 0;
         float way = distance(before.x, here.x);
-        vec3 begun = before.x;
+        vec3 begun = before.x, begun_rate = before.rate;
         do {
             Spot after = spot_at(orbit, m, float(done + 1) / float(pieces) * part);
             if (done + 1 == pieces) after = here;
             vec2 gone = min(vec2(distance(begun, before.x), distance(begun, after.x)) / max(way, 1e-20), 1.0);
             vec2 margins = mix(vec2(margin_before.most), vec2(margin.most), gone) + (falls ? BENT * min(length(after.x), BENT_WITHIN) : 0.0);
             Margin begin = margin_before, finish = margin;
-            if (pieces > 1) begin = margin_about(margins.x), finish = margin_about(margins.y);
+            bool turns = falls || dot(normalize(begun_rate), normalize(here.rate)) < STRAIGHT;
+            if (pieces > 1) begin = turns ? margin_about(margins.x) : margin_between(margin_before, margin, gone.x);
+            if (pieces > 1) finish = turns ? margin_about(margins.y) : margin_between(margin_before, margin, gone.y);
             Reached found = balls_near(before, after, begin, finish);
             if (under_way) reached = reached_on(reached, found);
             before = after;

@@ -44,6 +44,11 @@ Margin reach_margin(Spot spot) {
     return Margin(right, up, 1.1 * half_diagonal, 0.1 * half_diagonal);
 }
 
+// That of a place the part `part` of the way between two.
+Margin margin_between(Margin a, Margin b, float part) {
+    return Margin(mix(a.right, b.right, part), mix(a.up, b.up, part), mix(a.most, b.most, part), mix(a.least, b.least, part));
+}
+
 // The same whatever the direction.
 Margin margin_about(float most) {
     return Margin(vec3(0.0), vec3(0.0), most, most);
@@ -88,4 +93,23 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         found.hidden = far + rough + mix(begin.most, end.most, part) < -ball.w ? uint(i + 1) : found.hidden;
     }
     return found;
+}
+
+// The same of a straight way, on which the margin grows evenly: in pieces of which each is twice as long as the one before, as all of a piece is given what there is
+// at its end. A long way out of a lens begins where rays are close together.
+Reached balls_near_straight(Spot a, Spot b, Margin begin, Margin end) {
+    const int PIECES = 5;
+    Reached reached = NONE_REACHED;
+    Spot before = a;
+    Margin margin = begin;
+    int done = 0;
+    do {
+        float part = float((2 << done) - 1) / float((1 << PIECES) - 1);
+        Spot after = Spot(mix(a.x, b.x, part), b.rate);
+        Margin margin_after = margin_between(begin, end, part);
+        reached = reached_on(reached, balls_near(before, after, margin, margin_after));
+        before = after;
+        margin = margin_after;
+    } while (++done < PIECES);
+    return reached;
 }
