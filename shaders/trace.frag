@@ -39,6 +39,9 @@ void main() {
     vec3 local = texelFetch(listed_rays, ivec2(gl_FragCoord.xy), 0).xyz;
 #else
     vec2 place = ray_grid.x * (picture_place(gl_FragCoord.xy) - 0.5) + ray_grid.yz + 0.5;
+#if MEETINGS && BALLS_KNOWN
+    know_balls(place, ray_grid.x > 1.0);
+#endif
     vec3 local = pixel_direction(place);
 #if !CAMERA_PROJECTION_PERSPECTIVE
     if (!in_projection(place, 4.0)) { // black, as what the hole hides

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..shapes import Bool
+from ..shapes import Bool, Int
 
 Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
@@ -43,3 +43,16 @@ def joined(box: Box, other: Box) -> Box:
     low = min(box[0], other[0]), min(box[1], other[1])
     high = max(box[0] + box[2], other[0] + other[2]), max(box[1] + box[3], other[1] + other[3])
     return *low, high[0] - low[0], high[1] - low[1]
+
+
+def grown(box: Box, by: int, size: tuple[int, int]) -> Box:
+    """With so many pixels more on each side, as far as a picture of `size` has them."""
+    x, y, width, height = box
+    left, low = max(x - by, 0), max(y - by, 0)
+    return left, low, min(x + width + by, size[0]) - left, min(y + height + by, size[1]) - low
+
+
+def inside(pixels: Int[np.ndarray, "pixels 2"], box: Box) -> Bool[np.ndarray, " pixels"]:
+    """Which of `pixels`, column and row each, lie in it."""
+    x, y, width, height = box
+    return (pixels[:, 0] >= x) & (pixels[:, 0] < x + width) & (pixels[:, 1] >= y) & (pixels[:, 1] < y + height)

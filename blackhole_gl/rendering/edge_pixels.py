@@ -9,13 +9,15 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import EdgeMark, Fate
-from .boxes import Box, joined
+from .boxes import Box, grown, inside, joined
 from .classes import drawn, own_rays
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
 from .sorting import PixelSorting, marks_target, set_hiding
 from .target import Target
+
+_BESIDE = 2  # pixels by which what a pixel shows decides about others
 
 _SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
 _LARGEST = np.iinfo(np.uint16).max
@@ -34,15 +36,24 @@ class EdgePixels:
         self._own: Target | None = None
         self._classes: moderngl.Texture | None = None  # that it draws by
 
-    def find(self, inputs: FrameInputs, hit_map: HitMap, *, outlines: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    def find(self, inputs: FrameInputs, hit_map: HitMap, *, outlines: bool = True, within: Box | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
         medium, bool (N,). Waits for the GPU.
 
         Args:
-            outlines: whether a thing's plain outline is an edge, too.
+            outlines: whether a thing's plain outline is an edge, too, or that of a field.
+            within: the part of the picture whose pixels are asked for; all of it, where none is given.
         """
+        if within is not None:
+            pixels, beside = self._find(inputs, hit_map, outlines, grown(within, _BESIDE, inputs.size))
+            asked = inside(pixels, within)
+            return pixels[asked], beside[asked]
+        return self._find(inputs, hit_map, outlines, (0, 0, *inputs.size))
+
+    def _find(self, inputs: FrameInputs, hit_map: HitMap, outlines: bool, part: Box) -> tuple[np.ndarray, np.ndarray]:
+        """As `find`, in that `part` of a sharp map alone."""
         if hit_map.classes is None:
-            target, box = self._sorting.of(inputs, hit_map).marks, (0, 0, *inputs.size)
+            target, box = self._sorting.of(inputs, hit_map).marks, part
         else:
             target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
         marks = np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
@@ -52,8 +63,9 @@ class EdgePixels:
         beside = beside_things(marks, pixels)
         if outlines:
             return pixels + box[:2], beside
-        kept = ~beside
-        kept[beside] = ~at_plain_outlines(marks, pixels[beside])
+        plain = beside if not inputs.plan.model.traits.field else np.ones(len(pixels), bool)
+        kept = ~plain
+        kept[plain] = ~at_plain_outlines(marks, pixels[plain])
         return pixels[kept] + box[:2], beside[kept]
 
     def release(self) -> None:
@@ -125,8 +137,8 @@ def _counts(marks: np.ndarray) -> np.ndarray:
 
 
 def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
-    """Which of `pixels` (N, 2) of `marks` (height, width) lie at the outline of a thing and at nothing else, bool (N,): within and beside them nothing is
-    narrower than two pixels, and nothing but what is met changes."""
+    """Which of `pixels` (N, 2) of `marks` (height, width) lie at the outline of a thing or at the rim of a field and at nothing else, bool (N,): within and
+    beside them nothing is narrower than two pixels, and nothing but what is met and whether the ray comes into the field changes."""
     height, width = marks.shape
     steps = np.arange(-2, 3)
     columns, rows = (np.clip(places[:, None] + steps, 0, side - 1) for places, side in zip(pixels.T, (width, height)))
@@ -134,7 +146,7 @@ def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     has_ray = _has_ray(near)
     largest, least = _in_squares(np.maximum, np.where(has_ray, near, 0)), _in_squares(np.minimum, np.where(has_ray, near, _LARGEST))
     wide = _in_squares(np.logical_or, largest <= least)  # in a square that is all alike
-    seen = np.where(near & 3 == Fate.MET, near - (Fate.MET - Fate.ESCAPED), near) & ~np.uint16(EdgeMark.MET << 8)
+    seen = np.where(near & 3 == Fate.MET, near - (Fate.MET - Fate.ESCAPED), near) & ~np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
     beside, here = seen[:, 1:-1, 1:-1], seen[:, 2:3, 2:3]
     changes = has_ray[:, 1:-1, 1:-1] & (beside != here)
     return np.all(wide & ~changes, axis=(1, 2))

@@ -11,7 +11,7 @@ from enum import IntEnum
 import moderngl
 import numpy as np
 
-from .boxes import NOWHERE, Box, joined
+from .boxes import NOWHERE, Box, grown, inside, joined
 from .coarse_transfer import CoarseMedia
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
@@ -121,9 +121,7 @@ class EdgeRays:
         before, self._held, self._blocks = self._held, None, None
         if side == 1:
             return
-        pixels, seeking = self._find.find(inputs, hit_map, outlines=motion < Motion.CAMERA)
-        if not (motion and inputs.plan.meetings):
-            seeking = np.ones(len(pixels), bool)
+        pixels, seeking = self._found(inputs, hit_map, before, changed, motion)
         if not len(pixels):
             return
         if self._places is None or self._places.size != inputs.size:
@@ -134,7 +132,20 @@ class EdgeRays:
         self._held, fresh = (EdgeBlocks.of(pixels, seeking), np.ones(len(pixels), bool)) if found is None else found
         self._places.write(pixels, self._held.places)
         self._blocks = self._blocks_of(self._held, side)
-        self._map.trace_blocks(inputs, self._blocks, self._held.fresh(fresh, side, all_new=found is None))
+        self._map.trace_blocks(inputs, self._blocks, self._held.fresh(fresh, side, all_new=found is None), hit_map.known)
+
+    def _found(
+        self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks | None, changed: Squares | None, motion: Motion
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The pixels at edges, and which have rays that look for things: those `before` wherever none of the squares `changed` is near."""
+        near = None if before is None or changed is None else grown(changed.box(inputs.size), 1, inputs.size)
+        pixels, seeking = self._find.find(inputs, hit_map, outlines=motion < Motion.CAMERA, within=near)
+        if not (motion and inputs.plan.meetings):
+            seeking = np.ones(len(pixels), bool)
+        if before is None or near is None:
+            return pixels, seeking
+        stands = ~inside(before.pixels, near)
+        return np.concatenate([before.pixels[stands], pixels]), np.concatenate([before.seeking[stands], seeking])
 
     def _blocks_of(self, held: EdgeBlocks, side: int) -> RayBlocks:
         """The blocks of rays, and a target for what they show."""

@@ -23,12 +23,14 @@ class FrameMet:
         kinds: of each.
         key: what its hits depend on, of each.
         balls: that hold each, (N, 4).
-        fills: 1 + kind + 32·index of each that fills its ball with something opaque, as hits number them; 0 of the others, int (N,).
+        numbers: 1 + kind + 32·index of each thing, as hits number them; 0 of media, int (N,).
+        fills: which fill their balls with something opaque, bool (N,).
     """
 
     kinds: tuple
     key: tuple
     balls: np.ndarray
+    numbers: np.ndarray
     fills: np.ndarray
 
     @classmethod
@@ -37,26 +39,25 @@ class FrameMet:
         if not inputs.plan.meetings:
             return NOTHING_MET
         key = instances.key(inputs.plan, inputs.time)
-        return cls(tuple(entry[:2] for entry in key), key, reach.balls(inputs.plan, inputs.time), _fills(inputs.plan.scene))
+        return cls(tuple(entry[:2] for entry in key), key, reach.balls(inputs.plan, inputs.time), *_numbers(inputs.plan.scene))
 
 
-NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int))
+NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int), np.empty(0, bool))
 """Where rays meet the disk and the hole alone."""
 
 
-def _fills(scene: Scene) -> np.ndarray:
-    return _fills_of(scene.things, tuple(met.kinds(scene, "thing")), len(scene.media))
+def _numbers(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    return _numbers_of(scene.things, tuple(met.kinds(scene, "thing")), len(scene.media))
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)
-def _fills_of(things: Instances, kinds: tuple[PlugIn, ...], media: int) -> np.ndarray:
+def _numbers_of(things: Instances, kinds: tuple[PlugIn, ...], media: int) -> tuple[np.ndarray, np.ndarray]:
     """Kept by the scene's instances: while only the camera moves they are the same object."""
     numbers = {kind.key: number for number, kind in enumerate(kinds)}
     filling = {kind.key for kind in kinds if kind.traits.round and kind.traits.opaque}
     met_before: Counter[str] = Counter()
-    found = np.zeros(len(things) + media, int)
+    found, fills = np.zeros(len(things) + media, int), np.zeros(len(things) + media, bool)
     for place, one in enumerate(things.values()):
-        if one.kind in filling:
-            found[place] = 1 + numbers[one.kind] + 32 * met_before[one.kind]
+        found[place], fills[place] = 1 + numbers[one.kind] + 32 * met_before[one.kind], one.kind in filling
         met_before[one.kind] += 1
-    return found
+    return found, fills

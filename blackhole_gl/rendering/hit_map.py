@@ -35,6 +35,9 @@ _SLICES = 12
 
 _GENERATIONS = count(1)
 
+KNOWN: Mapping[str, int] = {"BALLS_KNOWN": 1}
+"""The switch of the program whose rays know which balls they may meet."""
+
 # Share of a picture beyond which changed squares are not worth their own draw.
 _MOST_CHANGED = 0.5
 
@@ -50,6 +53,7 @@ class HitMap:
         instances: the things and media that they may meet.
         traces: how many times rays have been traced, for tests and the overlay.
         generation: of what the map holds: a number that no other trace of this process has had.
+        known: of a refined map that the last `trace` has made, which things its cells may show; None of other maps, or where that is not known.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
     """
 
@@ -64,6 +68,7 @@ class HitMap:
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._key: tuple | None = None  # of all but the things and media, which have a key of their own
         self._met: FrameMet = NOTHING_MET
+        self.known: reach.Reached | None = None
         self._reach = reach.Reach(ctx, programs, tables)
         self._changed: tuple[int, Squares] | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
@@ -92,6 +97,7 @@ class HitMap:
         held = key == self._key and (not refined or self.is_sharp or self._refined_for == _refined_for(inputs))
         stands = held and (refined or self.is_sharp)
         before, self._met = self._met, FrameMet.of(inputs)
+        self.known = None
         changed = self._squares_changed(inputs, before) if stands else None
         held = held and changed is not None
         self.sharpened = refined and held and not self.is_sharp
@@ -133,16 +139,17 @@ class HitMap:
         found = self._reach.squares(inputs, np.concatenate([before.balls[moved], now.balls[moved]]))
         return found if len(found) * REFINE_STEP**2 < _MOST_CHANGED * size[0] * size[1] else None
 
-    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, fresh: FreshBlocks) -> None:
-        """Traces the rays of `blocks`, of the picture of `inputs`, that are `fresh`."""
+    def trace_blocks(self, inputs: FrameInputs, blocks: RayBlocks, fresh: FreshBlocks, known: reach.Reached | None = None) -> None:
+        """Traces the rays of `blocks`, of the picture of `inputs`, that are `fresh`; `known` is what its cells may show, where that has been told."""
         inputs = inputs.drawn_as(blocks.size)
-        self._last, self._blocks, self._refined_for = inputs, blocks, None
+        self._last, self._blocks, self._refined_for, self.known = inputs, blocks, None, known
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
+        seeking = {} if known is None else KNOWN
         if fresh.whole:
-            self._trace_rows(self._prepared({}), target, 0, inputs.size[1])
+            self._trace_rows(self._prepared(seeking), target, 0, inputs.size[1])
         elif fresh.changed is None:
             target.clear()
-        for switches, squares in (({}, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
+        for switches, squares in ((seeking, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
             for some in filter(len, squares):
                 self._trace_squares(self._prepared(switches), target, some)
         self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
@@ -159,7 +166,11 @@ class HitMap:
         """Gives the trace pass what it looks up: tables of the ray model, the things and media that rays may meet, and which pixels the rays are of."""
         plan = rays.inputs.plan
         things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
+        if self.known is not None:
+            things = {**things, **self.known.samplers}
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS), {**things, **self._ray_blocks.samplers})
+        if rays.takes("stray_seen"):
+            rays.set(stray_seen=refinement.tolerances(rays.inputs)[0])
         if rays.takes("meeting_reach"):
             rays.set(meeting_reach=plan.reach)
         self.tell_blocks(rays)
@@ -241,8 +252,11 @@ class HitMap:
     def _trace_refined(self, rays: Draw) -> None:
         inputs = rays.inputs
         if inputs.plan.meetings:
-            reached = self._reach.draw(inputs, self._met.balls, self._met.fills)
+            reached = self._reach.draw(inputs, self._met.balls, self._met.numbers, self._met.fills)
             solid = None
+            if reached.known and inputs.plan.meetings == 1:
+                self.known = reached
+                rays = self._programs.get("trace.frag", inputs, KNOWN)
             if reached.fills and inputs.plan.meetings == 1:
                 self._bind_tables(rays)
                 solid = self._things.trace(rays, reached)
@@ -252,7 +266,7 @@ class HitMap:
             self._bind_tables(coarse)
             self._grid.trace_own_rays(coarse, self.textures[: hit_texels.textures(inputs.plan.orders)], OWN_RAYS)
             if solid is not None:
-                self._things.fill(inputs, self.textures, self._grid.classes)
+                self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
             self._bind_tables(rays)
             self._grid.trace_own_rays(rays, self.textures, OPEN_THINGS)
         else:

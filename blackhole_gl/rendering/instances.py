@@ -36,9 +36,14 @@ _EARLIER = {"bound": ("bound", "velocity"), "velocity": ("bound", "velocity"), "
 
 
 def glsl(kinds: Iterable[PlugIn]) -> str:
+    """What `_glsl` gives, which is kept: each frame of a moving camera asks for it."""
+    return _glsl(tuple(kinds))
+
+
+@lru_cache(maxsize=16)
+def _glsl(kinds: tuple[PlugIn, ...]) -> str:
     """Declarations for shaders: ``thing_ball_count``, ``thing_ball_centre(i)`` and the like, ``thing_ball_radius(i)`` for each parameter of the kind; the
     array of pictures, if any kind has one. With the switch ``ROWS_HELD`` each kind of medium has one instance, whose row ``read_rows()`` reads once for all."""
-    kinds = list(kinds)
     lines = ["uniform sampler2D lamps_table;", "#define lamp_count textureSize(lamps_table, 0).y"] if kinds else []
     lines += ["#ifndef ROWS_HELD", "#define ROWS_HELD 0", "#endif"]
     if any(pictures.is_picture(item) for kind in kinds for item in kind.parameters.values()):

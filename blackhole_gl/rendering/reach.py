@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import moderngl
@@ -10,7 +11,7 @@ import numpy as np
 from ..physics import motion
 from ..planning import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
-from ..shapes import Float, Int
+from ..shapes import Bool, Float, Int
 from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
@@ -46,18 +47,27 @@ class Reached:
 
     Attributes:
         cells: R8, a texel for each cell of ``REFINE_STEP``² pixels, as shaders/reach_cells.frag leaves them.
+        cell_balls: R32UI, a bit for each ball that may be the first that is met in the cell.
         balls: what is held against, as shaders/common/reach.glsl takes it.
         fills: whether any ball is filled, so that a cell may show it alone.
+        known: whether each ball is that of one thing.
     """
 
     cells: moderngl.Texture
+    cell_balls: moderngl.Texture
     balls: moderngl.Texture
     fills: bool
+    known: bool
+
+    @property
+    def samplers(self) -> dict[str, moderngl.Texture]:
+        """What shaders/common/known_balls.glsl reads, by name."""
+        return {"cell_balls": self.cell_balls, "reach_balls": self.balls}
 
 
 @dataclass(frozen=True, eq=False)
 class _Level:
-    """Nodes, and for each cell between them what it may show, R8.
+    """Nodes, and for each cell between them what it may show, R8 and R32UI.
 
     Attributes:
         depth: of the nodes, by which they are drawn.
@@ -76,7 +86,10 @@ class _Level:
         nodes = cells[0] + 1, cells[1] + 1
         depth = ctx.depth_texture(nodes)
         return cls(
-            Target.of(ctx, [_texture(ctx, nodes, "u4")], depth), Target.of(ctx, [_texture(ctx, cells, "f1")]), depth, ctx.framebuffer([], depth)
+            nodes=Target.of(ctx, [_texture(ctx, nodes, "u4")], depth),
+            cells=Target.of(ctx, [_texture(ctx, cells, "f1"), _texture(ctx, cells, "u4")]),
+            depth=depth,
+            marks=ctx.framebuffer([], depth),
         )
 
     def release(self) -> None:
@@ -108,35 +121,40 @@ class Reach:
         self._made: _Made | None = None
         self._balls: moderngl.Texture | None = None
 
-    def draw(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], fills: Int[np.ndarray, " balls"]) -> Reached:
+    def draw(
+        self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], numbers: Int[np.ndarray, " balls"], fills: Bool[np.ndarray, " balls"]
+    ) -> Reached:
         """What each cell may show of `balls`, centre and radius each in r_s in the plan's frame.
 
         Args:
-            fills: 1 + kind + 32·index of what fills each and hides what is behind; 0: nothing does.
+            numbers: 1 + kind + 32·index of what lies in each; 0 where that is no thing.
+            fills: whether it fills the ball and hides what is behind.
         """
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", inputs, ALONE)
         seen = balls[:, 3] > 0.0  # lamps may have no size
         few = gathered(balls[seen], MOST_BALLS)
-        filled = fills[seen] if np.count_nonzero(seen) == len(few) else np.zeros(len(few), int)
-        table = {"reach_balls": self._table(few, filled)}
+        each_its_own = np.count_nonzero(seen) == len(few)
+        own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
+        table = {"reach_balls": self._table(few, own, filled)}
         nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
         if inputs.plan.model.traits.field:
             nodes.set(reach_stride=_stride(inputs.plan))
-        found: moderngl.Texture | None = None
+        found: Sequence[moderngl.Texture] = ()
         for step, level in made.levels.items():
-            if found is not None:
-                self._mark(inputs, level, found)
+            if found:
+                self._mark(inputs, level, found[0])
             self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), table)
             nodes.set(reach_step=float(step))
             frame = level.nodes.frame
             frame.use()
             frame.depth_mask = False
-            with drawn(self._ctx, nodes, EVERYWHERE if found is None else _MARKED):
+            with drawn(self._ctx, nodes, _MARKED if found else EVERYWHERE):
                 nodes.draw()
-            self._judge(inputs, level, found)
-            found = level.cells.texture
-        return Reached(made.levels[REFINE_STEP].cells.texture, table["reach_balls"], bool(np.any(filled)))
+            self._judge(inputs, level, found, len(few))
+            found = level.cells.textures
+        cells, cell_balls = made.levels[REFINE_STEP].cells.textures
+        return Reached(cells, cell_balls, table["reach_balls"], bool(np.any(filled)), each_its_own)
 
     def _mark(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture) -> None:
         """Marks the nodes of the cells in those that were found first."""
@@ -149,15 +167,17 @@ class Reach:
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
-    def _judge(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture | None) -> None:
-        cells = self._programs.get("reach_cells.frag", inputs, {} if found_first is None else FINER)
-        cells.sample({"nodes": level.nodes.texture} | ({} if found_first is None else {"found_first": found_first}))
+    def _judge(self, inputs: FrameInputs, level: _Level, found_first: Sequence[moderngl.Texture], count: int) -> None:
+        """Tells of the cells between the level's nodes what they may show of `count` balls."""
+        cells = self._programs.get("reach_cells.frag", inputs, FINER if found_first else {})
+        cells.sample({"nodes": level.nodes.texture, **dict(zip(("found_first", "balls_first"), found_first))})
+        cells.set(reach_count=count)
         level.cells.frame.use()
         cells.draw()
 
     def squares(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> Squares:
         """Those cells, listed. Waits for the GPU."""
-        texture = self.draw(inputs, balls, np.zeros(len(balls), int)).cells
+        texture = self.draw(inputs, balls, np.zeros(len(balls), int), np.zeros(len(balls), bool)).cells
         found = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width)
         rows, columns = np.nonzero(found)
         return Squares.of(np.stack([columns, rows], axis=-1), REFINE_STEP, inputs.size)
@@ -176,13 +196,13 @@ class Reach:
             self._made = _Made(size, {step: _Level.of(self._ctx, size, step) for step in steps(size[1])})
         return self._made
 
-    def _table(self, balls: Float[np.ndarray, "balls 4"], fills: Int[np.ndarray, " balls"]) -> moderngl.Texture:
+    def _table(self, balls: Float[np.ndarray, "balls 4"], numbers: Int[np.ndarray, " balls"], fills: Bool[np.ndarray, " balls"]) -> moderngl.Texture:
         if self._balls is None:
             self._balls = self._ctx.texture((MOST_BALLS, 2), 4, dtype="f4")
             self._balls.filter = moderngl.NEAREST, moderngl.NEAREST
         texels = np.zeros((2, MOST_BALLS, 4), np.float32)
-        texels[0, : len(balls)], texels[1, : len(balls), 0] = balls, fills
-        texels[0, :, 3] *= np.where(texels[1, :, 0] > 0.0, -1.0, 1.0)
+        texels[0, : len(balls)], texels[1, : len(balls), 0] = balls, numbers
+        texels[0, : len(balls), 3] *= np.where(fills, -1.0, 1.0)
         self._balls.write(texels.tobytes())
         return self._balls
 

@@ -134,6 +134,12 @@ class CoarseGrid:
         size = self.classes.size
         return (0, 0, *size) if self._cells is None else box_of(where.holds(self._cells), size, REFINE_STEP)
 
+    def filled_bands(self) -> Sequence[Box]:
+        """Parts of the picture of the last `trace` that hold all cells which one thing fills."""
+        if self._cells is None:
+            raise RuntimeError("what cells show is known right after `trace` alone")
+        return list(bands_of(np.abs(self._cells - PixelClass.SOLID_THING.depth) < 0.05, self.classes.size, REFINE_STEP, _BAND))
+
     def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
         made, self._cells = self._made, None

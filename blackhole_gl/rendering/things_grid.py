@@ -6,12 +6,14 @@ little enough.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import moderngl
 
 from ..planning import GRID_MARGIN, REFINE_STEP
 from . import hit_texels
+from .boxes import Box
 from .classes import THINGS, Where, drawn
 from .inputs import FrameInputs
 from .programs import Draw, Programs
@@ -88,8 +90,9 @@ class ThingsGrid:
         with drawn(self._ctx, draw, _MARKED):
             draw.draw()
 
-    def fill(self, inputs: FrameInputs, textures: list[moderngl.Texture], classes: moderngl.Texture) -> None:
-        """Writes what they meet into `textures`, of the picture's size, for the pixels that show things by `classes`: right where their cell is filled."""
+    def fill(self, inputs: FrameInputs, textures: list[moderngl.Texture], classes: moderngl.Texture, boxes: Iterable[Box]) -> None:
+        """Writes what they meet into `textures`, of the picture's size, for the pixels in `boxes` that show things by `classes`: right where their cell is
+        filled."""
         if self._filled is None or self._filled.color_attachments != tuple(textures) or self._filled.depth_attachment is not classes:
             if self._filled is not None:
                 self._filled.release()
@@ -108,7 +111,7 @@ class ThingsGrid:
         self._filled.use()
         self._filled.depth_mask = False
         with drawn(self._ctx, fill, THINGS):
-            fill.draw()
+            fill.draw_boxes(boxes)
 
     def release(self) -> None:
         """Gives the GL objects back."""

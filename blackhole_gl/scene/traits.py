@@ -151,12 +151,14 @@ class ThingTraits(MetTraits):
         surface: whether instances have the parameters of a surface too, which say how it looks.
         shines: whether instances have the parameters of a lamp too, and light falls from them on surfaces.
         meets: what it tells of where it is: how far any place is from it, or where a straight piece of a ray's way meets it.
+        tells_apart: whether it tells, too, that a way misses it which strays from a straight piece by much: of kinds that fill little of their balls.
     """
 
     opaque: bool = True
     surface: bool = False
     shines: bool = False
     meets: Literal["distance", "crossing"] = "distance"
+    tells_apart: bool = False
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,16 @@
 // Media have the same with medium_<key>_…; inside is negative, and outside positive. A thing whose header says meets = "crossing" tells instead
 //     float thing_<key>_crossing(int i, vec3 x, vec3 y, out bool enters)   the part 0…1 of the straight piece from x to y at which instance i is first
 //                                                 met, and whether it is entered there; 2: not at all
+// and with tells_apart
+//     bool thing_<key>_apart(int i, vec3 x, vec3 y, float stray)   whether a way that strays from that piece by as much misses it for certain
+//
+// BALLS_KNOWN: coarse rays have told which balls that things lie in may be met where the ray is (common/reach.glsl): those few are held against it instead of the boxes
+// of all. All things are opaque then.
 #include "common/hierarchy.glsl"
 #include "common/disk_plane.glsl"
+#if BALLS_KNOWN
+#include "common/known_balls.glsl"
+#endif
 
 uniform float meeting_reach;        // r_s from the hole, beyond which there is nothing to meet
 uniform isampler2D meeting_nodes;   // the hierarchy of all instances; a leaf holds 32·index + kind
@@ -131,6 +139,17 @@ float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 del
     return part;
 }
 
+bool tells_apart(int kind) {
+#each thing_told_apart : if (kind_$key(kind)) return true;
+    return false;
+}
+
+// Whether a way that strays from the piece by so much misses the instance for certain.
+bool is_apart(int kind, int index, vec3 x, vec3 y, float stray) {
+#each thing_told_apart : if (kind_$key(kind)) return thing_$key_apart(index, x, y, stray);
+    return false;
+}
+
 // What was found.
 struct Found {
     int kind, index;  // MEETING_NONE: nothing
@@ -150,6 +169,32 @@ void meet(Found found, vec3 place, Momentum momentum AND_TIME(float delay), inou
 
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
 // `stray`, the piece is too long for what it is near to, and nothing else is told.
+#if BALLS_KNOWN
+Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
+    Found found = NOTHING_FOUND;
+    uint left = stray < 1e29 ? known_balls : 0u;
+    allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
+    while (left != 0u) {
+        KnownBall ball;
+        bool near;
+        do {
+            ball = next_ball(left);
+            near = comes_near(ball, x, y, stray);
+        } while (!near && left != 0u);
+        if (near) {
+            float size = size_of(ball.kind, ball.index);
+            float own = max(stray_allowed(size), rounding(x, y));  // no finer than single precision
+            if (tells_apart(ball.kind)) own = max(own, unseen_stray(x));
+            if (stray <= own || !is_apart(ball.kind, ball.index, x, y, stray)) allowed = min(allowed, own);
+            bool enters;
+            float part = met_part(ball.kind, ball.index, size, x, y, enters);
+            if (part < found.at) found = Found(ball.kind, ball.index, part, size, enters);
+        }
+        left = stray > allowed ? 0u : left;
+    }
+    return found;
+}
+#else
 Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int first, out float allowed) {
     Found found = NOTHING_FOUND;
     Piece piece = piece_of(meeting_nodes, x, y, stray);
@@ -165,7 +210,7 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
 #if RAYS_LIGHT_TRAVEL
             own *= stray / (stray + circle_bow(kind, index, delays));
 #endif
-            allowed = min(allowed, own);
+            if (stray <= own || !is_apart(kind, index, x, y, stray)) allowed = min(allowed, own);
             bool enters;
             float part = met_part(kind, index, size, x, y AND_TIME(delays), enters);
             if (part < found.at) found = Found(kind, index, part, size, enters);
@@ -174,6 +219,7 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
     }
     return found;
 }
+#endif
 
 // A ball in which there is nothing to meet: centre and radius in r_s.
 const vec4 NOWHERE = vec4(0.0, 0.0, 0.0, -1.0);
@@ -193,6 +239,15 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     if (min(a.place.w, b.place.w) <= 0.0) return true;
     Stray stray = path_stray(a, b, h);
     vec3 x = path_point(a), y = path_point(b);
+#if BALLS_KNOWN
+    bool comes = false;
+    uint left = known_balls;
+    while (left != 0u) {
+        KnownBall ball = next_ball(left);
+        comes = comes || comes_near(ball, x + stray.aside, y + stray.aside, stray.moved_off);
+    }
+    return comes || stray.off > 1e29;
+#else
     Piece piece = piece_of(meeting_nodes, x + stray.aside, y + stray.aside, stray.moved_off);
     bool is_clear = remembers && max(distance(x, clear.xyz), distance(y, clear.xyz)) + stray.off + rounding(x, y) < clear.w;
     bool near = !is_clear && stray.off > 1e29;
@@ -212,6 +267,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     }
     if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y + stray.aside, piece.cell * room);
     return near;
+#endif
 }
 
 // The parameter between `from` and `to`, at which the curve is at a and b, where it is beside what is the part `part` of the way from a to b: as it would be if places

@@ -7,7 +7,7 @@
 // A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
 #include "common/reach_node.glsl"
 
-// A column each: centre in r_s, in the plan's frame, and radius, negative where a thing fills it; 1 + kind + 32·index of that thing, else 0.
+// A column each: centre in r_s, in the plan's frame, and radius, negative where a thing fills it; then 1 + kind + 32·index of what lies in it.
 uniform sampler2D reach_balls;
 uniform int reach_count;
 uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second

@@ -16,12 +16,11 @@ vec2 cos_sin(float angle) {
     return cos_sin_beside(int(quarter), (angle - quarter * 1.5707855225) - quarter * 1.0804334124e-5);
 }
 
-// The same of an angle in whole turns, to 2e-7: polynomials on a quarter of a turn to both sides of its halves, fitted in Chebyshev's points. No choice is made.
+// The same of an angle in whole turns, to 2e-7: polynomials on a quarter of a turn to both sides, fitted in Chebyshev's points.
 vec2 cos_sin_turns(float turn) {
-    float halves = floor(2.0 * turn + 0.5), t = turn - 0.5 * halves, s = t * t;
-    float sign = 1.0 - 2.0 * (halves - 2.0 * floor(0.5 * halves));
+    float beyond_half = turn - floor(turn) - 0.5, t = 0.25 - abs(beyond_half), s = t * t;
     float c = 0.99999995 + s * (-19.7391713 + s * (64.9345816 + s * (-85.2401004 + s * 56.2405404)));
-    return sign * vec2(c, t * (6.28318528 + s * (-41.3416807 + s * (81.6024807 + s * (-76.5812846 + s * 39.7607221)))));
+    return vec2(t * (-6.28318528 + s * (41.3416807 + s * (-81.6024807 + s * (76.5812846 - s * 39.7607221)))), beyond_half < 0.0 ? c : -c);
 }
 
 // `v` turned by the angle whose (cos, sin) is `turn`.

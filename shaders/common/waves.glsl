@@ -11,7 +11,7 @@ vec4 waves(vec3 x) {
     for (int i = 0; i < WAVES; ++i) {
         vec2 wave = cos_sin_turns(dot(WAVE[i].xyz, x) + WAVE[i].w);
         float share = i < 3 ? 2.0 / 9.0 : 1.0 / 9.0;
-        sum += share * vec4(-6.28318531 * wave.y * WAVE[i].xyz, wave.x);
+        sum += vec4((-6.28318531 * share) * WAVE[i].xyz, share) * wave.yyyx;
     }
     return sum;
 }

@@ -7,6 +7,7 @@ rank = 2
 moves = true
 surface = true
 meets = "crossing"
+tells_apart = true
 reach = ["size"]
 
 [parameters.file]
@@ -100,6 +101,13 @@ float thing_mesh_crossing(int i, vec3 x, vec3 y, out bool enters) {
     MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far);
     enters = found.enters;
     return found.part <= 1.0 ? mix(begin, end, found.part) : 2.0;
+}
+
+bool thing_mesh_apart(int i, vec3 x, vec3 y, float stray) {
+    vec4 bound = thing_mesh_bound(i);
+    Piece piece = piece_of(mesh_nodes, to_mesh(i, x - bound.xyz) / bound.w, to_mesh(i, y - bound.xyz) / bound.w, stray / bound.w);
+    Node leaf;
+    return next_leaf(mesh_nodes, piece, thing_mesh_file(i), 1.0, false, leaf) == 0;
 }
 
 // The change of texture coordinates along `change`, on a triangle with the sides a, b, along which they change by at_a, at_b.

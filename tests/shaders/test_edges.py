@@ -204,6 +204,16 @@ def test_the_rim_of_a_field_is_an_edge(renderer: Renderer, values: dict, moving:
     assert several < (0.6 if moving else 0.25) * one
 
 
+def test_the_rim_of_a_field_with_things_in_it_keeps_its_one_ray_while_the_camera_moves(renderer: Renderer) -> None:
+    """As their outlines do; at rest it has several."""
+    scene, shares = presets.load(["fish_eye"]), []
+    for moving in (False, True):
+        renderer.hit_map.forget()
+        renderer.render(scene, 1.0, SMALL, progressive=moving)
+        shares.append(edges_of(renderer, SMALL)[rim_of_field(renderer, SMALL)].mean())
+    assert shares[0] > 0.95 and shares[1] < 0.4
+
+
 def rim_of_field(renderer: Renderer, size: tuple[int, int]) -> np.ndarray:
     """The pixels that the circle goes through at which rays come into the field's sphere, bool (height, width), row 0 on top: by NumPy from the camera."""
     scene, (width, height) = renderer.hit_map._traced.plan.scene, size

@@ -127,3 +127,16 @@ def test_a_slider_of_a_mesh_compiles_nothing_and_a_bad_file_leaves_the_picture_s
     with pytest.raises(SceneError, match="things.moon.file: the mesh .* cannot be used: .*; allowed is an OBJ"):
         renderer.render(scene.with_values({"things.moon.file": str(other)}), 0.0, (36, 20))
     np.testing.assert_array_equal(renderer.read_rgb8(), picture)
+
+
+def test_a_mesh_under_a_moving_camera_is_where_an_exact_map_has_it_but_for_its_outline(renderer: Renderer) -> None:
+    """Ways are looked at within 0.4 of a pixel there. What differs lies at the outline, be it of an image narrower than a pixel, so that no part is lost."""
+    scene, shown = presets.load(["knot_behind_a_hole"], {"rays.edges": 1}), []
+    for moving in (False, True):
+        renderer.hit_map.forget()
+        renderer.render(scene, 0.0, (320, 180), progressive=moving)
+        shown.append(renderer.hits().met[..., 0, 0] >= 0)
+    exact, found = shown
+    outline = np.any([np.roll(shows, step, axis) != shows for shows in shown for axis in (0, 1) for step in (-1, 1)], axis=0)
+    assert exact.mean() > 0.1 and not renderer.hit_map.is_sharp
+    assert np.all(outline[found != exact]) and (found != exact).sum() < 0.04 * outline.sum()
