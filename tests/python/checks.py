@@ -105,7 +105,8 @@ def what_cannot_be_is_told_and_the_next_is_drawn() -> None:
         (lambda: bh.Renderer(gpu=99), "gpu: got 99; allowed is a number or a part of a name among 0: "),
         (lambda: bh.Renderer(gpu="no such card"), "gpu: got 'no such card'"),
         (lambda: bh.Renderer(backend="vulkan"), "allowed is one of auto, egl, osmesa"),
-        (lambda: bh.save("x.jpeg", scene), "allowed is .png, .toml, .exr, .fits, .npz"),
+        (lambda: bh.save("x.gif", scene), "allowed is .png, .jpg, .jpeg, .toml, .exr, .fits, .npz"),
+        (lambda: bh.save("x.jpeg", scene, linear=True), "linear: got x.jpeg; allowed with it is .png"),
         (lambda: bh.isoradials(scene, [0.5]), "allowed is between the horizon at"),
         (lambda: bh.critical_curve(bh.load("objects_undistorted")), "rays.model: got"),
     )
