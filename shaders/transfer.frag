@@ -5,8 +5,9 @@
 // where that is what flat space has), to where it leaves all media for good, falls into the hole, meets the opaque thing that the hit map has it end on, or next to
 // nothing comes through any more. So several media may overlap, and be met again on the far side of a hole.
 //
-// GRID: rays are those of a grid of pixels or of a list of some, with a footprint of their own (blackhole_gl/rendering/coarse_transfer.py). FROM_CAMERA: the hit map knows of
-// no media, and every ray is marched from the camera.
+// FROM_CAMERA: the hit map knows of no media, and every ray is marched from the camera, as where nothing but media and the disk can be met: looking for where media begin
+// took the trace several times as long. GRID: those are the rays of a grid of pixels or of a list of some, with a footprint of their own
+// (blackhole_gl/rendering/coarse_transfer.py).
 //
 // SAMPLES: of a listed ray the next samples are told instead of light: each stands for a piece, by the place of its middle and what a medium without its pattern gains and loses
 // on it; and where the ray goes on. So a pattern that moves is summed anew without a march (transfer_samples.frag, blackhole_gl/rendering/kept_samples.py).
@@ -82,24 +83,31 @@ uniform vec2 ray_spacing;      // pixels from ray to ray, below 0 where they are
 uniform sampler2D ray_pixels;  // column and row of each listed ray
 #if SAMPLES
 uniform sampler2D last_places, last_momenta;  // where each listed ray goes on, as was told
-uniform bool begins;                          // where the hit map has it enter
+uniform bool begins;                          // at the camera
+#endif
 #endif
 
-// What is alike all along a ray of a grid; a pixel is as wide as it is at the hole.
-Sight sight_of_grid(vec2 energy) {
-    vec3 wide = vec3(ray_spacing.y * picture_scale / camera_w, 0.0, 0.0);
+#if FROM_CAMERA
+// What is alike all along a ray; a pixel is as wide as it is at the hole.
+Sight sight_from_camera(vec2 energy) {
+#if GRID
+    float pixels = ray_spacing.y;
+#else
+    float pixels = 1.0 / block_side;
+#endif
+    vec3 wide = vec3(pixels * picture_scale / camera_w, 0.0, 0.0);
     return Sight(vec3(0.0), vec3(0.0), energy.x, energy.y, true, Momentum(0.0, vec3(0.0)), wide, wide);
 }
 #endif
 
-#if !FROM_CAMERA
-RayStart start_at(Meeting met, float energy) {
-    float r = length(met.place);
+#if SAMPLES || !FROM_CAMERA
+RayStart start_at(vec3 place, Momentum momentum, float energy) {
+    float r = length(place);
     RayStart ray;
     ray.w = 0.5 / r;
-    ray.w_rate = met.momentum.w_rate;
-    ray.n = met.place / r;
-    ray.n_rate = met.momentum.n_rate - dot(met.momentum.n_rate, ray.n) * ray.n;
+    ray.w_rate = momentum.w_rate;
+    ray.n = place / r;
+    ray.n_rate = momentum.n_rate - dot(momentum.n_rate, ray.n) * ray.n;
     ray.sine = length(ray.n.xy);
     ray.e_phi = ray.sine > 1e-6 ? vec3(-ray.n.y, ray.n.x, 0.0) / ray.sine : vec3(0.0, 1.0, 0.0);
     ray.e_theta = cross(ray.e_phi, ray.n);
@@ -124,7 +132,7 @@ void main() {
 #if FROM_CAMERA
     Hits hits = fetch_escape(pixel);
     RayStart start = ray_start(local);
-    bool any = ray.x >= 0.0 && place.x >= 0.0;
+    bool any = place.x >= 0.0;  // a block of rays may be nobody's
     int stretch = 0;
 #else
     Hits hits = fetch_hits(pixel);
@@ -134,18 +142,17 @@ void main() {
         if (is_medium(found.kind)) met = found;
         if (found.kind >= 0 && hits.fate == MET) end = found.place;
     }
-#if GRID
-    bool any = is_medium(met.kind) && ray.x >= 0.0;
-#else
     bool any = is_medium(met.kind);
-#endif
     int stretch = min(met.before, ORDERS);
+    RayStart start = start_at(met.place, met.momentum, ray_start(local).energy);
+#endif
+#if GRID
+    any = any && ray.x >= 0.0;
 #endif
 #if SAMPLES
     vec4 last = texelFetch(last_places, ivec2(gl_FragCoord.xy), 0), heading = texelFetch(last_momenta, ivec2(gl_FragCoord.xy), 0);
     if (!begins) {
-        met.place = last.xyz;
-        met.momentum = Momentum(heading.x, heading.yzw);
+        start = start_at(last.xyz, Momentum(heading.x, heading.yzw), start.energy);
         any = last.w >= 0.0;
         stretch = max(int(last.w), 0);
     }
@@ -153,11 +160,8 @@ void main() {
     gains0 = gains1 = loses0 = loses1 = vec4(0.0);
     int told = 0;
 #endif
-#if !FROM_CAMERA
-    RayStart start = start_at(met, ray_start(local).energy);
-#endif
-#if GRID
-    Sight first = sight_of_grid(pixel_energies(local));
+#if FROM_CAMERA
+    Sight first = sight_from_camera(pixel_energies(local));
 #else
     Sight first = sight_of(met, pixel_energies(local));
 #endif

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import moderngl
 import numpy as np
 
-from ..planning import Plan
-from ..scene import FrozenMap, Scene
+from ..planning import plan as make_plan
+from ..scene import FrozenMap
 from .classes import EVERYWHERE, Where, drawn
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -33,13 +33,14 @@ _OWN, _BETWEEN = Where(">", 0.375), Where("<", 0.625)
 
 
 @dataclass(frozen=True)
-class CoarseMedia:
-    """How the media of a frame are drawn that have a resolution of their own.
+class MediaApart:
+    """How the media of a frame are drawn whose rays are marched from the camera, apart from all else, which knows of no media.
 
     Attributes:
         inputs: the frame, with its media.
         step: pixels from ray to ray; 1: each has its own.
         footprint: pixels that what a ray sees is a mean of.
+        exact: whether they are drawn as exactly as the rest, for pictures that stay.
         passes: whether the next picture is another moment of the same, so that the grid and what lies at edges may take turns.
         apart: whether those are rays of blocks, beside which others lie than in a picture: nothing is joined between them.
     """
@@ -48,34 +49,35 @@ class CoarseMedia:
     step: int
     footprint: float
     passes: bool
+    exact: bool = False
     apart: bool = False
 
-    def in_blocks(self, size: tuple[int, int], side: int) -> CoarseMedia:
+    def in_blocks(self, size: tuple[int, int], side: int) -> MediaApart:
         """Of the same picture's rays in blocks of `side`², drawn into `size` pixels: each has its own, or under a moving camera four of sixteen share one."""
-        return replace(self, inputs=self.inputs.drawn_as(size), step=1 if self.passes or side < 4 else 2, apart=True)
+        return replace(self, inputs=self.inputs.drawn_as(size), step=1 if self.exact or self.passes or side < 4 else 2, apart=True)
 
 
-def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> CoarseMedia | None:
-    """How media are drawn under a `moving` camera, or in a picture that `passes` with its moment; None: as exactly as the rest.
+def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> MediaApart | None:
+    """How media are drawn under a `moving` camera, in a picture that `passes` with its moment, or in one that stays; None: with all else.
 
-    Things are met in order with them, a field has to be gone into, and parallel rays come from nowhere: there media are drawn with all else.
+    Things are met in order with them, a field has to be gone into, and parallel rays come from nowhere.
     """
     plan = inputs.plan
     apart = plan.scene.media and not plan.scene.things and plan.scene.camera.distance < 1e6 and not plan.model.traits.field and plan.scene.rays.refine
     if not apart or plan.scene.post.view != "picture":
         return None
     if not (moving or passes and changes(plan)):
-        return None
+        return MediaApart(inputs, 1, 1.0, passes=False, exact=True)
     rays = plan.scene.rays
     longer = 1.0 if can_keep(plan) and not moving else LONGER
     coarser = inputs.with_plan(replace(plan, scene=plan.scene.with_values({"rays.medium_step": min(longer * rays.medium_step, max(rays.medium_step, 1.0))})))
     step = MOVING if moving else TURNING
-    return CoarseMedia(coarser, step, float(step), passes=not moving)
+    return MediaApart(coarser, step, float(step), passes=passes)
 
 
-def rest_of(inputs: FrameInputs, plan_of: Callable[[Scene], Plan]) -> FrameInputs:
-    """The same frame without its media, in which nothing but the disk can be met."""
-    return inputs.with_plan(plan_of(replace(inputs.plan.scene, media=FrozenMap())))
+def rest_of(inputs: FrameInputs, media: MediaApart | None) -> FrameInputs:
+    """The same frame without its media, in which nothing but the disk can be met; itself where there are no `media` apart from the rest."""
+    return inputs if media is None else inputs.with_plan(make_plan(replace(inputs.plan.scene, media=FrozenMap())))
 
 
 class CoarseTransfer:
@@ -92,12 +94,12 @@ class CoarseTransfer:
         self._last: _Last | None = None
         self._marked: tuple | None = None
 
-    def draw(self, media: CoarseMedia, hit_map: HitMap, samplers: Samplers, *, apart: bool) -> None:
-        """Fills the textures for all pixels of `hit_map`, which where they are `apart` knows of no media, unless they hold just that; `samplers` are what rays
-        look things up in."""
+    def draw(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> None:
+        """Fills the textures for all pixels of `hit_map`, unless they hold just that; `samplers` are what rays look things up in."""
         inputs = media.inputs
-        march = self._programs.get("transfer.frag", inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": int(apart)})
-        asked = _Asked(media, hit_map, samplers, march, (replace(inputs, time=0.0), hit_map.generation, march.serial, media.step))
+        march = self._programs.get("transfer.frag", inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": 1})
+        blocks = hit_map.generation if media.apart else 0  # of which pixels they are
+        asked = _Asked(media, hit_map, samplers, march, (replace(inputs, time=0.0), blocks, march.serial, media.step))
         made = self._targets(inputs.size, stretches(inputs.plan), media.step, apart=media.apart)
         begins = self._last is None or self._last.rays != asked.rays
         if begins:
@@ -145,7 +147,7 @@ class CoarseTransfer:
 
     def _tell(self, asked: _Asked, made: _Made) -> None:
         """Some more of the samples on rays that have stayed."""
-        march = self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1})
+        march = self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1, "FROM_CAMERA": 1})
         samples, pixels, step = made.untold()
         if not samples.begun:
             listed = pixels()
@@ -201,7 +203,7 @@ class CoarseTransfer:
         made.whole.frame.depth_mask = False
         made.whole.frame.clear()
 
-    def _join(self, media: CoarseMedia, made: _Made, where: Where) -> None:
+    def _join(self, media: MediaApart, made: _Made, where: Where) -> None:
         join = self._programs.get("transfer_join.frag", media.inputs)
         join.sample(_named(made.grid))
         factors = [1.0 / (media.step * side) for side in made.grid.size]
@@ -209,7 +211,7 @@ class CoarseTransfer:
         join.set(pixels_to_grid=(*factors, *offsets))
         self._fill(join, made.whole, where)
 
-    def _spread(self, media: CoarseMedia, rays: RayList, listed: Target, target: Target, where: Where) -> None:
+    def _spread(self, media: MediaApart, rays: RayList, listed: Target, target: Target, where: Where) -> None:
         """What the rays of a list show, into their own pixels of `target`."""
         spread = self._programs.get("transfer_join.frag", media.inputs, {"LISTED": 1})
         spread.sample({**_named(listed), "places": rays.places})
@@ -248,7 +250,7 @@ class _Last:
 class _Asked:
     """What is to be drawn: media, the hits and tables that their rays are known by, the march, and a key of all rays."""
 
-    media: CoarseMedia
+    media: MediaApart
     hit_map: HitMap
     samplers: Samplers
     march: Draw

@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from .boxes import NOWHERE, Box, grown, inside, joined
-from .coarse_transfer import CoarseMedia
+from .coarse_transfer import MediaApart
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
 from .hit_map import HitMap
@@ -67,12 +67,12 @@ class EdgeRays:
         """Column and row of each pixel with several rays, from the bottom left, int (N, 2)."""
         return np.empty((0, 2), int) if self._held is None else self._held.pixels
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, motion: Motion = Motion.NOTHING, coarse: CoarseMedia | None = None) -> None:
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: Target, *, motion: Motion = Motion.NOTHING, media: MediaApart | None = None) -> None:
         """Shades the rays of the pixels at edges of `hit_map`, traced before where they are not known yet, and puts their means into `target`.
 
         Args:
             motion: where anything moves fewer rays will do, as for every map that is not sharp; and where the camera does, one at plain outlines of things.
-            coarse: media that are drawn at a resolution of their own.
+            media: those that are marched apart from the rest, if any are.
         """
         motion = motion if hit_map.is_sharp else Motion.CAMERA
         side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=motion > Motion.NOTHING)
@@ -85,7 +85,7 @@ class EdgeRays:
         if self._blocks is None or self._radiance is None or self._places is None:
             return
         size = self._blocks.size
-        self._shade.draw(inputs.drawn_as(size), self._map, self._radiance.frame, coarse.in_blocks(size, self._blocks.side) if coarse else None)
+        self._shade.draw(inputs.drawn_as(size), self._map, self._radiance.frame, media.in_blocks(size, self._blocks.side) if media else None)
         resolve = self._programs.get("edge_resolve.frag", inputs)
         resolve.set(pairs=self._blocks.side // 2)
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})

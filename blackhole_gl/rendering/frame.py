@@ -16,7 +16,7 @@ from ..planning import Plan
 from ..planning import plan as make_plan
 from ..scene import Scene
 from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, supersampling, views
-from .coarse_transfer import CoarseMedia
+from .coarse_transfer import MediaApart
 from .edges import EdgeRays, Motion
 from .frame_report import FrameReport
 from .hit_map import HitArrays, HitMap
@@ -64,7 +64,8 @@ class Renderer:
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
         self._post = PostPass(ctx, self.programs)
         self._stars = StarLayer(ctx)
-        self._last: FrameInputs | None = None
+        self._last: FrameInputs | None = None  # without media that are marched apart
+        self._whole: FrameInputs | None = None  # the same with them
         self.shadings = 0
         self._radiance: Target | None = None
         self._radiance_key: tuple | None = None  # where its light stands
@@ -106,19 +107,28 @@ class Renderer:
         stamps = [clock.perf_counter()]
         shown = shown if keeps_stars(scene) else None
         inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
-        coarse = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
-        rest = self._last = coarse_transfer.rest_of(inputs, make_plan) if coarse is not None and progressive else inputs
+        media = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
+        self._whole, rest = inputs, coarse_transfer.rest_of(inputs, media)
+        self._last = rest
         traced = self._trace(rest, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
-        motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or coarse is not None else Motion.NOTHING
-        radiance = self._kept_or_shaded(rest, coarse, motion)
+        motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or media is not None and media.passes else Motion.NOTHING
+        radiance = self._kept_or_shaded(rest, media, motion)
+        marched = not progressive or self._march_exactly(inputs, rest, passes=glow_may_last, stays=not traced or self.hit_map.sharpened)
         self._stamp(stamps, measure)
         self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan)
+        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp)
+
+    def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
+        """Whether all is there of the media that the next picture shows exactly, if it does; where the view `stays`, some more of their rays are marched."""
+        media = coarse_transfer.of(inputs, moving=False, passes=passes)
+        if media is None or not media.exact:
+            return True
+        return stays and self.hit_map.is_sharp and self._shade.march_apart(rest, media, self.hit_map)
 
     def draw_stars(self, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
         """Adds the single stars that the last `render` left out to its picture enlarged, which `viewport` (x, y, width, height) of `target` holds.
@@ -160,15 +170,17 @@ class Renderer:
 
     def _add_to_the_mean(self, inputs: FrameInputs) -> None:
         one = replace(inputs, offset=supersampling.place(self._mean.count))
+        media = coarse_transfer.of(one, moving=False, passes=False)
+        rest = coarse_transfer.rest_of(one, media)
         first = self._mean.count == 0
         if first:
-            self._trace(one)
+            self._trace(rest)
             self._views.fit(inputs.plan.scene, self.hit_map)
         else:
-            self._sample_map.trace(one)
-        radiance = self._shaded(one, self.hit_map if first else self._sample_map)
+            self._sample_map.trace(rest)
+        radiance = self._shaded(rest, self.hit_map if first else self._sample_map, media)
         if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance)
+            self.edges.draw(replace(rest, offset=inputs.offset), self.hit_map, radiance, media=media and replace(media, inputs=inputs))
         self._mean.add(_radiance_of(radiance).astype(np.float32))
 
     def time_trace(self, plan: Plan, size: tuple[int, int], *, progressive: bool = False) -> float:
@@ -258,8 +270,10 @@ class Renderer:
 
     def _tile(self, inputs: FrameInputs) -> Target:
         """The radiance of a part of a still."""
-        self._trace(inputs)
-        return self._shaded_with_edges(inputs)
+        media = coarse_transfer.of(inputs, moving=False, passes=False)
+        rest = coarse_transfer.rest_of(inputs, media)
+        self._trace(rest)
+        return self._shaded_with_edges(rest, media)
 
     def trace_listed(self, scene: Scene, directions: np.ndarray) -> tuple[HitArrays, np.ndarray, Plan]:
         """Listed local directions (N, 3) (`observer.local_directions`) through the shader that pictures use, wherever the camera looks.
@@ -316,14 +330,31 @@ class Renderer:
         """The pixels of the last frame, one of `scene`, whose rays meet the instance called `path`, bool (height, width), bottom row first; None where not
         every pixel has a ray of its own, or no ray can meet it."""
         number = instance_numbers.number_of(scene, path)
-        return self.hit_map.where_met(number) if number is not None and self.hit_map.textures and self.hit_map.is_sharp else None
+        if number is None or not self.hit_map.textures or not self.hit_map.is_sharp:
+            return None
+        return self._where_apart(self._whole, number) if self._whole is not None and self._is_apart else self.hit_map.where_met(number)
+
+    @property
+    def _is_apart(self) -> bool:
+        """Whether the last frame's hit map knows nothing of its media."""
+        return self._last is not self._whole
+
+    def _where_apart(self, inputs: FrameInputs, number: instance_numbers.Number) -> np.ndarray:
+        """As `HitMap.where_met`, of every fourth ray: those of the map itself have not been asked for the media of `inputs`."""
+        width, height = inputs.size
+        self._sample_map.trace(FrameInputs.whole(inputs.plan, inputs.time, (-(-width // 4), -(-height // 4))))
+        return np.kron(self._sample_map.where_met(number), np.ones((4, 4), bool))[:height, :width]
 
     def _ray_at(self, place: tuple[float, float]) -> tuple[FrameInputs, HitArrays, tuple[int, int]] | None:
         if not self.hit_map.textures:
             return None
         pixel = math.floor(place[0] * self.hit_map.textures[0].width), math.floor(place[1] * self.hit_map.textures[0].height)
         found = self.hit_map.at(pixel)
-        return None if found is None else (*found, pixel)
+        if found is None or self._whole is None or not self._is_apart:
+            return None if found is None else (*found, pixel)
+        self._sample_map.trace(replace(self._whole, size=(3, 3), offset=(pixel[0] - 1.0, pixel[1] - 1.0)))  # no power of two: docs/llvmpipe.md
+        one = self._sample_map.at((1, 1))
+        return None if one is None else (self._whole, one[1], pixel)
 
     def view_of(self, scene: Scene) -> views.View | None:
         """The diagnostic view that `scene` asks for, with the scale of the last frame; None for the picture itself."""
@@ -357,23 +388,23 @@ class Renderer:
             traced_reference = self.reference_map.trace(inputs.with_plan(diagnostics.most_accurate(inputs.plan)))
         return self.hit_map.trace(inputs, progressive=progressive) or traced_reference
 
-    def _kept_or_shaded(self, inputs: FrameInputs, coarse: CoarseMedia | None, motion: Motion) -> Target:
+    def _kept_or_shaded(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> Target:
         """`_shaded_with_edges` of the own hit map, unless that is what the radiance holds."""
-        made = self._light_key(inputs, coarse, motion)
+        made = self._light_key(inputs, media, motion)
         if self._radiance is None or made is None or made != self._radiance_key:
-            self._shaded_with_edges(inputs, coarse, motion)
-            self._radiance_key = self._light_key(inputs, coarse, motion)  # programs may have been compiled
+            self._shaded_with_edges(inputs, media, motion)
+            self._radiance_key = self._light_key(inputs, media, motion)  # programs may have been compiled
         return _drawn(self._radiance)
 
-    def _light_key(self, inputs: FrameInputs, coarse: CoarseMedia | None, motion: Motion) -> tuple | None:
+    def _light_key(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> tuple | None:
         files = self._tables.pictures.stamps(chosen(inputs.plan, "sky", "disk_layer", "ray_model"), inputs.plan.scene)
         own = self.hit_map.generation, self.hit_map.is_sharp, motion, self.programs.compiled, files
         key = kept_light.key(inputs, *own)
-        media = kept_light.key(coarse.inputs, coarse.step) if coarse is not None else ()
-        return None if key is None or media is None else (key, media)
+        of_media = kept_light.key(media.inputs, media.step) if media is not None else ()
+        return None if key is None or of_media is None else (key, of_media)
 
-    def _shaded(self, inputs: FrameInputs, hit_map: HitMap, coarse: CoarseMedia | None = None) -> Target:
-        """The radiance that the hits of `hit_map` have in the scene, with media that may be `coarse`."""
+    def _shaded(self, inputs: FrameInputs, hit_map: HitMap, media: MediaApart | None = None) -> Target:
+        """The radiance that the hits of `hit_map` have in the scene, with `media` that are marched apart."""
         self._radiance_key = None
         self.shadings += 1
         if self._radiance is None or self._radiance.size != inputs.size:
@@ -381,14 +412,14 @@ class Renderer:
         if diagnostics.is_on(inputs.plan.scene):
             self._views.draw(inputs, hit_map, self.reference_map, self._radiance.frame)
         else:
-            self._shade.draw(inputs, hit_map, self._radiance.frame, coarse)
+            self._shade.draw(inputs, hit_map, self._radiance.frame, media)
         return self._radiance
 
-    def _shaded_with_edges(self, inputs: FrameInputs, coarse: CoarseMedia | None = None, motion: Motion = Motion.NOTHING) -> Target:
+    def _shaded_with_edges(self, inputs: FrameInputs, media: MediaApart | None = None, motion: Motion = Motion.NOTHING) -> Target:
         """The same of the own hit map, with several rays in the pixels at edges."""
-        radiance = self._shaded(inputs, self.hit_map, coarse)
+        radiance = self._shaded(inputs, self.hit_map, media)
         if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance, motion=motion, coarse=coarse)
+            self.edges.draw(inputs, self.hit_map, radiance, motion=motion, media=media)
         return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:
@@ -410,9 +441,9 @@ class Renderer:
             old.release()
         return Target.of(self.ctx, [self.ctx.texture(size, components, dtype=dtype)])
 
-    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan) -> FrameReport:
+    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan, *, sharp: bool) -> FrameReport:
         made, exposure = self.hit_map, self.exposure
-        return FrameReport(*took_ms, traced, made.is_sharp, made.sharpened, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
+        return FrameReport(*took_ms, traced, sharp, made.sharpened, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:

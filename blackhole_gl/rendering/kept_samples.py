@@ -13,6 +13,7 @@ import numpy as np
 from ..planning import Plan
 from ..scene import met
 from ..shapes import Float, Int
+from . import instances
 from .programs import Draw, Samplers
 from .ray_lists import WIDE, RayList, numbers_of, rows_of
 from .target import Target
@@ -23,13 +24,14 @@ MOST_SAMPLES = 64
 MOST_KEPT = 8_000_000
 """Samples of all rays of a list, 32 bytes each: where there would be more nothing is kept."""
 
-_A_FRAME = 60_000  # rays that are marched on between two pictures, two samples each
+_A_FRAME = 15_000  # rays that are marched on between two pictures, two samples each
 _TOLD = 8  # textures that a march fills: two samples of three, and where the ray goes on in two
 
 
 def can_keep(plan: Plan) -> bool:
     """Whether the scene's media are one alone that has a pattern, the same at one time everywhere: samples keep no times of light."""
-    return not plan.times and len(plan.scene.media) == 1 and all(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))
+    stays = not plan.times and not instances.anything_moves(plan)
+    return stays and len(plan.scene.media) == 1 and all(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))
 
 
 @dataclass(eq=False)

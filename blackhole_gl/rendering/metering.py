@@ -11,6 +11,7 @@ import numpy as np
 
 from ..planning import Plan
 from ..scene import Playback, Post, Scene, Sky
+from . import coarse_transfer
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Programs
@@ -150,9 +151,11 @@ class Meter:
                 self._target.release()
             self._target = Target.of(self._ctx, [self._ctx.texture(size, 4, dtype="f2")])
         inputs = FrameInputs.whole(view, 0.0, size)
+        media = coarse_transfer.of(inputs, moving=False, passes=False)
+        rest = coarse_transfer.rest_of(inputs, media)
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._hit_map.trace(inputs)
-        self._shade.draw(inputs, self._hit_map, self._target.frame)
+        self._hit_map.trace(rest)
+        self._shade.draw(rest, self._hit_map, self._target.frame, media)
         light = np.frombuffer(self._target.texture.read(), np.float16).reshape(-1, 4)[:, :3].astype(float) @ LUMINANCE
         lit = np.sort(light[light > 0.0])
         first, last = (min(round(share * lit.size), lit.size - 1) for share in BRIGHT)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .boxes import Box, box_of, joined
 from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
-from .coarse_transfer import CoarseMedia, CoarseTransfer
+from .coarse_transfer import CoarseTransfer, MediaApart
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .overlays import Overlays
@@ -26,6 +26,9 @@ _SECOND_OUTPUT = 0x88F9  # GL_SRC1_COLOR, which moderngl has no name for
 
 _STRETCHES = {"STRETCHES": 1}
 """The switch of what reads the light of media and has hits that know of none."""
+
+_A_FRAME = 40_000  # rays through media that are marched exactly between two pictures
+
 
 class ShadePass:
     """Draws shaders/shade_*.frag.
@@ -59,22 +62,23 @@ class ShadePass:
         self._sky_generation = 0
         self._sky_kept = False
 
-    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, coarse: CoarseMedia | None = None) -> None:
+    def draw(self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, media: MediaApart | None = None) -> None:
         """Shades `hit_map` into `target` (RGBA16F, of the map's size). Alpha: the share of the sky's light that comes through, where single stars were left
         out because the picture is to be shown enlarged; else 0, or without meaning in a picture that is not.
 
         Args:
-            coarse: media that are drawn at a resolution of their own. They need not be in `inputs`, nor met in `hit_map`: then they are put before all of it.
+            media: those that are marched apart from the rest, and are not in `inputs`.
         """
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
         self._stretches = {}
-        apart = coarse is not None and not inputs.plan.scene.media
-        if coarse is not None:
-            self.coarse_transfer.draw(coarse, hit_map, self._samplers(coarse.inputs, hit_map), apart=apart)
+        apart = media is not None
+        if media is not None and not media.exact:
+            self.coarse_transfer.draw(media, hit_map, self._samplers(media.inputs, hit_map))
             self._stretches = self.coarse_transfer.samplers
+        elif media is not None:
+            self._march_media(media.inputs, hit_map, classes, EVERYWHERE, {"FROM_CAMERA": 1})
         elif inputs.plan.scene.media:
-            self._march_media(inputs, hit_map, classes)
-            self._stretches = self.transfer.samplers
+            self._march_media(inputs, hit_map, classes, THINGS, {})
         frame = self._attached(target, classes)
         ctx = self._ctx
         ctx.enable(moderngl.DEPTH_TEST)
@@ -107,10 +111,20 @@ class ShadePass:
         self._ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         self._draw_classes(self._prepared("shade_media.frag", inputs, hit_map, hit_map.switches()), BEYOND_MATTER if inputs.plan.orders else EVERYWHERE)
 
-    def _march_media(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> None:
-        march = self._prepared("transfer.frag", inputs, hit_map, hit_map.switches())
+    def march_apart(self, inputs: FrameInputs, media: MediaApart, hit_map: HitMap) -> bool:
+        """Marches some of the rays of exact `media`, which are not in `inputs`, before `draw` needs them all. Returns whether none is left."""
+        self._stretches = {}
+        classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
+        return self._march_media(media.inputs, hit_map, classes, EVERYWHERE, {"FROM_CAMERA": 1}, _A_FRAME)
+
+    def _march_media(
+        self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture, where: Where, switches: Mapping[str, int], most: int | None = None
+    ) -> bool:
+        march = self._prepared("transfer.frag", inputs, hit_map, {**hit_map.switches(), **switches})
         march.set(meeting_reach=inputs.plan.reach)
-        self.transfer.draw(march, hit_map, classes)
+        whole = self.transfer.draw(march, hit_map, classes, where, most)
+        self._stretches = self.transfer.samplers
+        return whole
 
     def _lay_sky(
         self, inputs: FrameInputs, hit_map: HitMap, target: moderngl.Framebuffer, frame: moderngl.Framebuffer, classes: moderngl.Texture

@@ -1,4 +1,4 @@
-"""The light of media: what they add to each ray and let through, marched again from where the hit map has the ray enter them."""
+"""The light of media: what they add to each ray and let through, marched from the camera, or from where the hit map has the ray enter them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import numpy as np
 from ..planning import Plan
 from ..scene import met
 from ..shapes import Float
-from .classes import THINGS, drawn
+from . import instances
+from .classes import Where, drawn
 from .hit_map import HitMap
 from .programs import Draw
 
@@ -28,22 +29,34 @@ class TransferPass:
         self._textures: list[moderngl.Texture] = []
         self._frame: moderngl.Framebuffer | None = None
         self._key: tuple | None = None
+        self._rows = 0  # that are drawn
 
-    def draw(self, march: Draw, hit_map: HitMap, classes: moderngl.Texture) -> None:
-        """Draws with `march`, its samplers bound, the pixels of `hit_map` that meet something by their `classes`, unless that is what the textures hold."""
+    def draw(self, march: Draw, hit_map: HitMap, classes: moderngl.Texture, where: Where, most: int | None = None) -> bool:
+        """Draws with `march`, its samplers bound, the pixels of `hit_map` that are `where` it says by their `classes`, unless that is what the textures hold.
+
+        Args:
+            most: rays, about, that are drawn now, the others by the next calls; None: all.
+
+        Returns:
+            Whether the textures hold all of it.
+        """
         inputs = march.inputs
         plan = inputs.plan
-        key = (hit_map.generation, march.serial, plan.scene.rays.medium_step, inputs.time if changes(plan) else 0.0)
-        if key == self._key and self._frame is not None and self._frame.depth_attachment is classes:
-            return
-        self._fit(classes, stretches(plan))
-        self._key = key
-        self.marches += 1
-        if self._frame is not None:
+        key = (hit_map.generation, march.serial, plan.scene.media, plan.scene.rays.medium_step, inputs.time if changes(plan) else 0.0)
+        if key != self._key or self._frame is None or self._frame.depth_attachment is not classes:
+            self._fit(classes, stretches(plan))
+            self._key, self._rows = key, 0
+            self.marches += 1
+        width, height = classes.size
+        first, self._rows = self._rows, height if most is None else min(self._rows + max(most // width, 1), height)
+        if first < height and self._frame is not None:
             self._frame.use()
-        self._ctx.disable(moderngl.BLEND)
-        with drawn(self._ctx, march, THINGS):
-            march.draw()
+            self._ctx.disable(moderngl.BLEND)
+            self._ctx.scissor = 0, first, width, self._rows - first
+            with drawn(self._ctx, march, where):
+                march.draw()
+            self._ctx.scissor = None
+        return self._rows == height
 
     @property
     def samplers(self) -> Mapping[str, moderngl.Texture]:
@@ -82,5 +95,5 @@ def stretches(plan: Plan) -> int:
 
 
 def changes(plan: Plan) -> bool:
-    """Whether a medium's light is another at another time on rays that stay the same."""
-    return any(kind.traits.changes for kind in met.kinds(plan.scene, "medium"))
+    """Whether a medium's light, or its place, is another at another time on rays that stay the same."""
+    return any(kind.traits.changes for kind in met.kinds(plan.scene, "medium")) or instances.anything_moves(plan)

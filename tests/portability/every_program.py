@@ -147,8 +147,9 @@ def _of_instances() -> Iterator[Wanted]:
             changes = slot == "medium" and catalogue.plug_ins(slot)[kind].traits.changes
             beside_none = {"MEETINGS": 0, "NO_MEETINGS": made.meetings}
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
-            drawn += [("transfer.frag", {"GRID": 1, "FROM_CAMERA": apart, "HIT_MAP_REFINED": apart}) for apart in (0, 1) if slot == "medium"]
-            drawn += [("transfer.frag", {"GRID": 1, "SAMPLES": 1}), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if changes else []
+            drawn += [("transfer.frag", {"FROM_CAMERA": 1, "GRID": grid, "HIT_MAP_REFINED": grid}) for grid in (0, 1) if slot == "medium"]
+            kept = {"FROM_CAMERA": 1, "GRID": 1, "SAMPLES": 1}
+            drawn += [("transfer.frag", kept), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if changes else []
             drawn += [("transfer_join.frag", {"LISTED": 1})] if slot == "medium" else []
             drawn += [(path, {}) for path in ("transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
             drawn += [("shade_matter.frag", {"STRETCHES": 1, "MEETINGS": 0, "HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
