@@ -146,6 +146,7 @@ def _of_instances() -> Iterator[Wanted]:
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             changes = slot == "medium" and catalogue.plug_ins(slot)[kind].traits.changes
             beside_none = {"MEETINGS": 0, "NO_MEETINGS": made.meetings}
+            drawn += [("trace.frag", {"BALLS_KNOWN": 1})] if made.meetings == 1 and made.reach_steps else []
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"FROM_CAMERA": 1, "GRID": grid, "HIT_MAP_REFINED": grid}) for grid in (0, 1) if slot == "medium"]
             kept = {"FROM_CAMERA": 1, "GRID": 1, "SAMPLES": 1}
