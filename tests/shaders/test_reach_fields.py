@@ -56,7 +56,7 @@ def test_a_shipped_scene_of_balls_is_interpolated_where_they_are_whole(renderer:
 
 @pytest.mark.slow
 def test_a_moving_camera_sees_the_shipped_balls_where_an_exact_map_has_them(renderer: Renderer) -> None:
-    """From random places. Rays that know which balls they may meet cut their ways elsewhere, so that a pixel in a million lies on the other side of an outline."""
+    """Rays that know which balls they may meet cut their ways elsewhere: a pixel in a million lies on the other side of an outline."""
     rng = np.random.default_rng(5)
     wrong = pixels = 0
     for name in SHIPPED:
