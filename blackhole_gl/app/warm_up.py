@@ -5,6 +5,7 @@ Nothing depends on it: where there is no such process or no such cache, the wind
 
 from __future__ import annotations
 
+import itertools
 import time as clock
 from concurrent.futures import Future
 from functools import cache
@@ -60,7 +61,20 @@ def _draw(scene: Scene, size: tuple[int, int]) -> None:
         for progressive, time in ((True, 0.0), (True, 1.0), (False, 1.0), (False, 1.0), (False, 2.0)):
             renderer.render(scene, time, size, measure=True, progressive=progressive, glow_may_last=time > 0.0, shown=shown)
             renderer.draw_stars(enlarged.frame, (0, 0, *shown))
+        _draw_media(renderer, scene, size)
         renderer.programs.release()
         renderer.hit_map.forget()
     enlarged.release()
     clock.sleep(_UNTIL_WRITTEN_S)
+
+
+def _draw_media(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> None:
+    """Media as a paused picture has them, and by samples along their rays, which are told over some frames."""
+    if not scene.media:
+        return
+    renderer.render(scene, 2.0, size)
+    for time in itertools.count(3.0):
+        told = not renderer.coarse_transfer.tells
+        renderer.render(scene, time, size, glow_may_last=True)
+        if told and time > 6.0:  # the grid, and the rays beside it
+            break

@@ -41,6 +41,7 @@ class MediaApart:
         step: pixels from ray to ray; 1: each has its own.
         footprint: pixels that what a ray sees is a mean of.
         exact: whether they are drawn as exactly as the rest, for pictures that stay.
+        rests: whether the next picture is by the same rays, of a sharp map, so that samples along them are worth telling.
         passes: whether the next picture is another moment of the same, so that the grid and what lies at edges may take turns.
         apart: whether those are rays of blocks, beside which others lie than in a picture: nothing is joined between them.
     """
@@ -50,6 +51,7 @@ class MediaApart:
     footprint: float
     passes: bool
     exact: bool = False
+    rests: bool = False
     apart: bool = False
 
     def in_blocks(self, size: tuple[int, int], side: int) -> MediaApart:
@@ -72,7 +74,7 @@ def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> MediaApart | None:
     longer = 1.0 if can_keep(plan) and not moving else LONGER
     coarser = inputs.with_plan(replace(plan, scene=plan.scene.with_values({"rays.medium_step": min(longer * rays.medium_step, max(rays.medium_step, 1.0))})))
     step = MOVING if moving else TURNING
-    return MediaApart(coarser, step, float(step), passes=passes)
+    return MediaApart(coarser, step, float(step), passes=passes, rests=not moving)
 
 
 def rest_of(inputs: FrameInputs, media: MediaApart | None) -> FrameInputs:
@@ -94,6 +96,11 @@ class CoarseTransfer:
         self._last: _Last | None = None
         self._marked: tuple | None = None
 
+    @property
+    def tells(self) -> bool:
+        """Whether samples are being told, and are not all there yet."""
+        return self._made is not None and self._made.samples.begun and not self._made.is_told
+
     def draw(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> None:
         """Fills the textures for all pixels of `hit_map`, unless they hold just that; `samplers` are what rays look things up in."""
         inputs = media.inputs
@@ -109,8 +116,10 @@ class CoarseTransfer:
             self._draw_grid(asked, made)
         if own and made.own.count:
             self._draw_own(asked, made)
-        if not begins and media.passes and can_keep(inputs.plan) and not made.is_told:
-            self._tell(asked, made)
+        if media.rests and can_keep(inputs.plan):
+            tell, _ = self._telling(asked), self._summing(asked)  # asked for at once: what is missing is to be missed before the scene is shown
+            if not begins and not made.is_told:
+                self._tell(tell, asked, made)
 
     def _draw_grid(self, asked: _Asked, made: _Made) -> None:
         """The grid, and what lies between its rays; the whole picture where each of its pixels has one."""
@@ -140,14 +149,19 @@ class CoarseTransfer:
         """What `samples` show at the frame's time, into `target`."""
         self.marches += 1
         listed = made.listed(self._ctx, samples.list)
-        draw = self._programs.get("transfer_samples.frag", asked.media.inputs, {"MOST_SAMPLES": MOST_SAMPLES})
+        draw = self._summing(asked)
         draw.sample({**asked.samplers, **samples.samplers})
         samples.sum(draw, listed.frame, asked.media.footprint)
         self._spread(asked.media, samples.list, listed, target, where)
 
-    def _tell(self, asked: _Asked, made: _Made) -> None:
+    def _summing(self, asked: _Asked) -> Draw:
+        return self._programs.get("transfer_samples.frag", asked.media.inputs, {"MOST_SAMPLES": MOST_SAMPLES})
+
+    def _telling(self, asked: _Asked) -> Draw:
+        return self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1, "FROM_CAMERA": 1})
+
+    def _tell(self, march: Draw, asked: _Asked, made: _Made) -> None:
         """Some more of the samples on rays that have stayed."""
-        march = self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1, "FROM_CAMERA": 1})
         samples, pixels, step = made.untold()
         if not samples.begun:
             listed = pixels()

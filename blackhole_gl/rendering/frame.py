@@ -115,13 +115,15 @@ class Renderer:
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
         motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or media is not None and media.passes else Motion.NOTHING
+        telling = self.coarse_transfer.tells
         radiance = self._kept_or_shaded(rest, media, motion)
+        telling = telling or self.coarse_transfer.tells
         marched = not progressive or self._march_exactly(inputs, rest, passes=glow_may_last, stays=not traced or self.hit_map.sharpened)
         self._stamp(stamps, measure)
         self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
-        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp)
+        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp, telling=telling)
 
     def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
         """Whether all is there of the media that the next picture shows exactly, if it does; where the view `stays`, some more of their rays are marched."""
@@ -441,9 +443,9 @@ class Renderer:
             old.release()
         return Target.of(self.ctx, [self.ctx.texture(size, components, dtype=dtype)])
 
-    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan, *, sharp: bool) -> FrameReport:
+    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan, *, sharp: bool, telling: bool) -> FrameReport:
         made, exposure = self.hit_map, self.exposure
-        return FrameReport(*took_ms, traced, sharp, made.sharpened, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
+        return FrameReport(*took_ms, traced, sharp, made.sharpened or telling, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:

@@ -13,7 +13,7 @@ class FrameReport:
         trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
         traced: whether rays were traced; False when the kept hit map served.
         sharp: whether every pixel had a ray of its own.
-        sharpened: whether the rays traced only made a slice of a kept map exact.
+        sharpened: whether the rays traced only made a slice of a kept map exact, or told what lies along kept ones, so that what it took says little.
         method: the plan's method in a few words.
         reasons: why the plan chose it.
         warnings: what it makes worse than the scene asks.

@@ -89,6 +89,17 @@ def test_samples_on_rays_that_stay_show_what_a_march_does(renderer: Renderer) ->
     assert off < 1e-3 and moved > 5.0 * off
 
 
+def test_no_program_of_samples_is_missing_once_a_picture_at_rest_was_drawn(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A window prepares a scene anew where one is: those of samples were missed in every picture at rest, which therefore never became sharp."""
+    scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
+    renderer.programs.release()
+    renderer.render(scene, 1.0, SIZE, glow_may_last=True)
+    monkeypatch.setattr(renderer.programs, "deadline", -np.inf)
+    for turn in range(8):
+        renderer.render(scene, 2.0 + turn, SIZE, glow_may_last=True)
+    assert not renderer.coarse_transfer.tells and renderer.coarse_transfer._made is not None and renderer.coarse_transfer._made.samples.is_whole
+
+
 def test_where_samples_would_be_too_many_rays_are_marched_on(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(coarse_transfer, "MOST_KEPT", 0)
     scene = presets.load(["kerr"], SLAB | BEFORE_DISK | {"rays.lensing": True, "media.slab.depth": 1.01})
