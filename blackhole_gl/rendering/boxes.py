@@ -28,10 +28,15 @@ def box_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side
 
 def bands_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side: int, height: int) -> Iterator[Box]:
     """The same for each `height` rows of cells that hold any: for what lies about a hole, or far apart."""
+    filled = np.logical_or.reduce(picked, axis=1)
     for first in range(0, len(picked), height):
-        x, y, width, rows = box_of(picked[first : first + height], (size[0], size[1] - side * first), side)
-        if width:
-            yield x, y + side * first, width, rows
+        rows = np.flatnonzero(filled[first : first + height])
+        if rows.size:
+            low, high = first + int(rows[0]), first + int(rows[-1]) + 1
+            columns = np.logical_or.reduce(picked[low:high])
+            left, right = int(columns.argmax()), columns.size - int(columns[::-1].argmax())
+            x, y = side * left, side * low
+            yield x, y, min(side * right, size[0]) - x, min(side * high, size[1]) - y
 
 
 def joined(box: Box, other: Box) -> Box:

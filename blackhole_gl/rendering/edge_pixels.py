@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import EdgeMark, Fate
-from .boxes import Box, grown, inside, joined
+from .boxes import NOWHERE, Box, grown, inside, joined
 from .classes import drawn, own_rays
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -83,7 +83,7 @@ class EdgePixels:
         frame.use()
         frame.depth_mask = False
         kinds = own_rays(inputs.plan)
-        box = reduce(joined, (hit_map.box(where) for where, _ in kinds))
+        box = reduce(joined, (band for where, _ in kinds for band in hit_map.bands(where)), NOWHERE)
         frame.clear(1.0, 1.0, viewport=box)  # no ray
         for where, switches in kinds:
             marks = self._programs.get("edge_marks.frag", inputs, switches)
@@ -111,10 +111,11 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
     found = np.zeros(flat.size, bool)
     for apart in (1, width - 1, width, width + 1):
         first = np.flatnonzero(flat[apart:] != flat[:-apart])
+        first = first[_has_ray(flat[first]) & _has_ray(flat[first + apart])]
         here, there = flat[first], flat[first + apart]
-        both, changed = _has_ray(here) & _has_ray(there), here ^ there
-        found[first[both & (changed & _counts(here) != 0)]] = True
-        found[first[both & (changed & _counts(there) != 0)] + apart] = True
+        changed = here ^ there
+        found[first[changed & _counts(here) != 0]] = True
+        found[first[changed & _counts(there) != 0] + apart] = True
     rows, columns = np.divmod(np.flatnonzero(found), width)
     return np.stack([columns - 1, rows - 1], axis=-1)
 

@@ -11,7 +11,7 @@ from enum import IntEnum
 import moderngl
 import numpy as np
 
-from .boxes import NOWHERE, Box, grown, inside, joined
+from .boxes import grown, inside
 from .coarse_transfer import MediaApart
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
@@ -187,17 +187,17 @@ class _Places:
         self._blocks = np.full((*size[::-1], 2), _NO_BLOCK, np.uint16)
         self.block_of_pixel = ctx.texture(size, 2, self._blocks.tobytes(), dtype="u2")
         self.block_of_pixel.filter = moderngl.NEAREST, moderngl.NEAREST
-        self._pixels, self._box = np.empty((0, 2), int), NOWHERE
+        self._pixels = np.empty((0, 2), int)
         self._frame: moderngl.Framebuffer | None = None
 
     def write(self, pixels: np.ndarray, blocks: np.ndarray) -> None:
-        """The `pixels` have these `blocks`, each (N, 2), and no others have any."""
-        before, self._box = self._box, _box_of(pixels)
+        """The `pixels` have these `blocks`, each (N, 2), one at least, and no others have any."""
+        rows = np.concatenate([self._pixels[:, 1], pixels[:, 1]])
+        first, end = int(rows.min()), int(rows.max()) + 1
         self._blocks[self._pixels[:, 1], self._pixels[:, 0]] = _NO_BLOCK
         self._blocks[pixels[:, 1], pixels[:, 0]] = blocks
         self._pixels, self.squares = pixels, Squares.holding(pixels, min(TOGETHER, *self.size), self.size)
-        x, y, width, height = changed = joined(before, self._box)
-        self.block_of_pixel.write(self._blocks[y : y + height, x : x + width].tobytes(), changed)
+        self.block_of_pixel.write(self._blocks[first:end], (0, first, self.size[0], end - first))  # whole rows lie in one piece
 
     def frame(self, target: Target) -> moderngl.Framebuffer:
         """Draws into `target`."""
@@ -214,9 +214,3 @@ class _Places:
             if item is not None:
                 item.release()
         self._frame = None
-
-
-def _box_of(pixels: np.ndarray) -> Box:
-    """The smallest that holds `pixels` (N, 2), of which there is one at least."""
-    (x, y), (right, top) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
-    return x, y, right + 1 - x, top + 1 - y

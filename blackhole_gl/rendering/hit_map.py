@@ -208,10 +208,6 @@ class HitMap:
         """Parts of a map that is not sharp which hold all of its pixels that are `where`."""
         return self._grid.bands(where)
 
-    def box(self, where: Where) -> Box:
-        """The same in one part."""
-        return self._grid.box(where)
-
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan

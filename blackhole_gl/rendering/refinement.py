@@ -11,7 +11,7 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
-from .boxes import Box, bands_of, box_of
+from .boxes import Box, bands_of
 from .classes import Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs
@@ -128,11 +128,6 @@ class CoarseGrid:
         if where not in self._bands:
             self._bands[where] = list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
         return self._bands[where]
-
-    def box(self, where: Where) -> Box:
-        """The same in one part."""
-        size = self.classes.size
-        return (0, 0, *size) if self._cells is None else box_of(where.holds(self._cells), size, REFINE_STEP)
 
     def filled_bands(self) -> Sequence[Box]:
         """Parts of the picture of the last `trace` that hold all cells which one thing fills."""
