@@ -48,6 +48,10 @@ out vec4 radiance;
 #slots thing
 #endif
 
+#if SKY_BEHIND
+uniform sampler2D sky_behind;  // what lies behind, where that is not blended
+#endif
+
 const float BRIGHTEST = 6.0e4;          // what a half float holds
 const float EMISSION_UNIT = 1.0 / 0.18; // an emission_strength of 0.18 gives the hottest ring radiance 1 (at g = 1)
 
@@ -226,5 +230,10 @@ void main() {
     light = PASS_BEFORE(light, gone, 3);
     passed = vec4(light.passed, 1.0);
 #endif
+#if SKY_BEHIND
+    vec4 sky = texel_of(sky_behind, ivec2(gl_FragCoord.xy));
+    radiance = vec4(clamp(light.gathered + light.passed * sky.rgb, 0.0, BRIGHTEST), light.passed.x * sky.a);
+#else
     radiance = vec4(clamp(light.gathered, 0.0, BRIGHTEST), light.passed.x);
+#endif
 }

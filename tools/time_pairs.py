@@ -6,6 +6,8 @@ glow: a picture at rest while time runs, its glow made for every second frame, a
 edges: a picture under a moving camera with several rays in the pixels at edges, against one ray in each.
 things: ten spheres and the disk under a moving camera, against the disk alone.
 orbit: ten spheres before a camera at rest, one of them on an orbit, against all of them at rest.
+turning, zooming: a camera that only turns by half a degree a frame, or zooms in by 1 %, against one at rest; with the rays that are marched for each picture.
+zooming_out: the same, out.
 stars: a picture of half the size under a moving camera, enlarged with its stars drawn over it, against one that is only enlarged.
 """
 
@@ -15,7 +17,7 @@ import argparse
 import math
 import time as clock
 from collections.abc import Callable
-from statistics import median, quantiles
+from statistics import mean, median, quantiles
 from typing import Any
 
 from blackhole_gl.app.area import Area
@@ -28,7 +30,7 @@ from blackhole_gl.scene import Scene, presets
 
 FRAME_S = 1.0 / 30.0  # between frames, of the window's time
 
-Frames = Callable[[int], None]  # draws the frames of a round
+Frames = Callable[[int], FrameReport | None]  # draws the frames of a round; may tell of the last
 
 
 def glow(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
@@ -111,15 +113,47 @@ class _NoStars:
         pass
 
 
-COMPARED = {"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars}
+def looking(renderer: Renderer, scene: Scene, size: tuple[int, int], look: Callable[[int], dict[str, object]]) -> tuple[Frames, Frames]:
+    """Frames of a running clock under a camera that has the `look` of each frame's number, and under one that rests with the look of the thirtieth."""
+    other, middle = Renderer(renderer.ctx), scene.with_values(look(30))
+
+    def looks(number: int) -> FrameReport:
+        return renderer.render(scene.with_values(look(number)), FRAME_S * number, size, progressive=True, may_turn=True)
+
+    def rests(number: int) -> None:
+        other.render(middle, FRAME_S * number, size)
+
+    return looks, rests
 
 
-def spent(renderer: Renderer, frames: Frames, number: int) -> float:
-    """Milliseconds of processor time."""
+def turning(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """To the right."""
+    return looking(renderer, scene, size, lambda number: {"camera.yaw_deg": 0.5 * (number - 30)})
+
+
+def zooming(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """In."""
+    return looking(renderer, scene, size, lambda number: {"camera.fov_deg": scene.camera.fov_deg * 0.99 ** (number + 3)})
+
+
+def zooming_out(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """Out."""
+    return looking(renderer, scene, size, lambda number: {"camera.fov_deg": 0.6 * scene.camera.fov_deg * 1.01 ** (number + 3)})
+
+
+COMPARED = {
+    **{"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars},
+    **{"turning": turning, "zooming": zooming, "zooming_out": zooming_out},
+}
+
+
+def spent(renderer: Renderer, frames: Frames, number: int, told: list[FrameReport]) -> float:
+    """Milliseconds of processor time; what is told of a frame is put to `told`."""
     renderer.ctx.finish()
     begun = clock.process_time()
-    frames(number)
+    report = frames(number)
     renderer.ctx.finish()
+    told += [] if report is None else [report]
     return 1e3 * (clock.process_time() - begun)
 
 
@@ -135,9 +169,15 @@ def main() -> None:
     renderer, scene = Renderer(create_headless()), presets.load(given.preset or ["kerr"], dict(pair.split("=", 1) for pair in given.set))
     for compare in [COMPARED[given.only]] if given.only else COMPARED.values():
         new, old = compare(renderer, scene, (width, height))
-        taken = [(spent(renderer, new, number), spent(renderer, old, number)) for number in range(-3, given.rounds)][3:]
+        told: list[FrameReport] = []
+        taken = [(spent(renderer, new, number, told), spent(renderer, old, number, told)) for number in range(-3, given.rounds)][3:]
         low, _, high = quantiles((a / b for a, b in taken), n=4)
-        print(f"{compare.__name__}: {median(a / b for a, b in taken):.3f} of the time, half of the pairs within {low:.3f} to {high:.3f}")
+        whole = sum(a for a, _ in taken) / sum(b for _, b in taken)
+        print(f"{compare.__name__}: {median(a / b for a, b in taken):.3f} of the time, half of the pairs within {low:.3f} to {high:.3f}, {whole:.3f} in all")
+        if told:
+            marched = [report.marched / (width * height) for report in told[3:]]
+            many = sum(share > 0.05 for share in marched)
+            print(f"  rays marched: {mean(marched):.3f} of the pixels in the mean, {max(marched):.3f} at most, in {many} of {len(marched)} more than 0.05")
 
 
 if __name__ == "__main__":

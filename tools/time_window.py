@@ -5,8 +5,9 @@
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30). Each goes on for `--settle` seconds before frames count, the first of them not before the scene's own programs are there. A figure stands for
-the machine and its screen together: on a display with vertical synchronisation no frame is shorter than the screen's.
+out to 30), look (the view alone turns to the right: light is kept by direction). Each goes on for `--settle` seconds before frames count, the first of them
+not before the scene's own programs are there. A figure stands for the machine and its screen together: on a display with vertical synchronisation no frame is
+shorter than the screen's.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from blackhole_gl.scene import presets
 
 ORBIT_DEG = (60.0, 100.0)
 ZOOM_RS = (6.0, 30.0)
+LOOK = 0.5  # of a stick's whole way
 
 
 class Swing:
@@ -47,6 +49,7 @@ def motions() -> dict[str, Callable[[WindowState], Collection[str]]]:
     tilt = Swing(lambda state: state.scene.camera.inclination_deg, ORBIT_DEG, "orbit_down", "orbit_up")
     return {
         "rest": lambda state: (),
+        "look": lambda state: (),  # with a stick: see `Conductor.leads`
         "turn": lambda state: ("orbit_right",),
         "orbit": lambda state: (*tilt(state), "orbit_right"),
         "zoom": Swing(lambda state: state.scene.camera.distance, ZOOM_RS, "zoom_out", "zoom_in"),
@@ -92,6 +95,11 @@ class Conductor:
             self._begin()
         return self._keys[self._run.motion](state) if self._run else ()
 
+    def leads(self, state: WindowState, hand: commands.Hand, dt: float) -> commands.Hand:
+        """What the hand does in this frame, `dt` seconds long."""
+        held = replace(hand, held=self.hold(state))
+        return held.turned((LOOK, 0.0), dt) if self._run is not None and self._run.motion == "look" else held
+
     def saw(self, shown: picture.Picture) -> None:
         """A picture was drawn."""
         now = clock.perf_counter()
@@ -121,7 +129,7 @@ def conduct(conductor: Conductor) -> None:
     advance, update = commands.advance, picture.Picture.update
 
     def led(state, hand, dt, slept=0.0) -> None:
-        advance(state, replace(hand, held=conductor.hold(state)), dt, slept)
+        advance(state, conductor.leads(state, hand, dt), dt, slept)
 
     def watched(self, *args, **kwargs) -> bool:
         rendered = update(self, *args, **kwargs)

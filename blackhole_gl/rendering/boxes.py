@@ -39,6 +39,24 @@ def bands_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], si
             yield x, y, min(side * right, size[0]) - x, min(side * high, size[1]) - y
 
 
+def boxes_of(picked: Bool[np.ndarray, "rows columns"], side: int) -> Iterator[Box]:
+    """Boxes that hold all that is `picked`, in cells of `side` pixels each way, and no more than half as much beside: in each row what lies together, put
+    to what is like it in the row below."""
+    growing: list[tuple[int, int, int, int, int]] = []  # left, right, first row, row after the last, cells
+    for row in np.flatnonzero(picked.any(axis=1)).tolist():
+        ends = np.flatnonzero(np.diff(picked[row].astype(np.int8), prepend=0, append=0))
+        for left, right in ends.reshape(-1, 2).tolist():
+            for k, (first, last, bottom, top, cells) in enumerate(growing):
+                low, high = min(left, first), max(right, last)
+                if top >= row and 2 * (high - low) * (row + 1 - bottom) <= 3 * (cells + right - left):
+                    growing[k] = low, high, bottom, row + 1, cells + right - left
+                    break
+            else:
+                growing.append((left, right, row, row + 1, right - left))
+    for first, last, bottom, top, _ in growing:
+        yield side * first, side * bottom, side * (last - first), side * (top - bottom)
+
+
 def joined(box: Box, other: Box) -> Box:
     """The smallest that holds both."""
     if not (box[2] and box[3]):

@@ -102,6 +102,11 @@ class EdgeRays:
         """How many times rays have been traced."""
         return self._map.traces
 
+    @property
+    def marched(self) -> int:
+        """How many rays have been traced."""
+        return self._map.marched
+
     def release(self) -> None:
         """Gives the GL objects back."""
         self._find.release()
@@ -138,6 +143,8 @@ class EdgeRays:
         self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks | None, changed: Squares | None, motion: Motion
     ) -> tuple[np.ndarray, np.ndarray]:
         """The pixels at edges, and which have rays that look for things: those `before` wherever none of the squares `changed` is near."""
+        if before is not None and changed is not None and hit_map.parts is not None:
+            return self._found_in_parts(inputs, hit_map, before, changed)
         near = None if before is None or changed is None else grown(changed.box(inputs.size), 1, inputs.size)
         pixels, seeking = self._find.find(inputs, hit_map, outlines=motion < Motion.CAMERA, within=near)
         if not (motion and inputs.plan.meetings):
@@ -146,6 +153,16 @@ class EdgeRays:
             return pixels, seeking
         stands = ~inside(before.pixels, near)
         return np.concatenate([before.pixels[stands], pixels]), np.concatenate([before.seeking[stands], seeking])
+
+    def _found_in_parts(self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks, changed: Squares) -> tuple[np.ndarray, np.ndarray]:
+        """The same of a map that is extended, and has no things: what is new of it lies at all sides of the rest."""
+        standing, found = before.pixels, []
+        for box in changed.boxes(inputs.size):
+            near = grown(box, 1, inputs.size)
+            found.append(self._find.find(inputs, hit_map, within=near)[0])
+            standing = standing[~inside(standing, near)]
+        numbers = np.unique(np.concatenate([standing, *found]) @ (1, inputs.size[0]))
+        return np.stack([numbers % inputs.size[0], numbers // inputs.size[0]], axis=-1), np.ones(len(numbers), bool)
 
     def _blocks_of(self, held: EdgeBlocks, side: int) -> RayBlocks:
         """The blocks of rays, and a target for what they show."""

@@ -30,6 +30,7 @@ from .stills import TILE, Stills
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
+from .turning import TurningPass, Turns, can_turn
 from .uniforms import stars_a_pixel
 
 if TYPE_CHECKING:
@@ -64,9 +65,12 @@ class Renderer:
         self.exposure = Exposure(ctx, self.programs, self._tables, self._temperatures)
         self._post = PostPass(ctx, self.programs)
         self._stars = StarLayer(ctx)
+        self._turning, self._turns = TurningPass(ctx, self.programs, self._tables, self._temperatures), Turns()
         self._last: FrameInputs | None = None  # without media that are marched apart
         self._whole: FrameInputs | None = None  # the same with them
         self.shadings = 0
+        self._marched = 0  # rays, by the end of the last frame
+        self._turning_shown = False  # whether the last picture is of the pass of that name
         self._radiance: Target | None = None
         self._radiance_key: tuple | None = None  # where its light stands
         self._picture: Target | None = None
@@ -85,6 +89,7 @@ class Renderer:
         progressive: bool = False,
         glow_may_last: bool = False,
         shown: tuple[int, int] | None = None,
+        may_turn: bool = False,
     ) -> FrameReport:
         """Draws `scene` at scene time `time` (r_s/c).
 
@@ -99,6 +104,8 @@ class Renderer:
             glow_may_last: for a picture that the next one replaces, and that differs from the last by little time alone: see ``PostPass.draw``. Where a thing
                 has moved in it, pixels at edges have four rays.
             shown: (width, height) that the picture will be enlarged to; single stars are then left to `draw_stars`.
+            may_turn: of a `progressive` picture: where the camera has only turned or zoomed since the last one, this may be one that is filtered from light
+                kept by direction (turning.py).
 
         Raises:
             SceneError, ValueError: the scene cannot be drawn; the text says why.
@@ -106,7 +113,19 @@ class Renderer:
         """
         stamps = [clock.perf_counter()]
         shown = shown if keeps_stars(scene) else None
-        inputs = FrameInputs.whole(self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive), time, size, shown=shown)
+        planned = self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive)
+        turned = self._turns.turned(scene)
+        if not self._turns.stays:
+            self._turning.forget()
+        self._turning_shown = turned and may_turn and progressive and can_turn(planned)
+        if self._turning_shown:
+            into = target or self._own_picture(size).frame, viewport or (0, 0, *size)
+            self._turning_shown = self._turning.draw(scene, planned, time, size, *into, shown)
+        if self._turning_shown:
+            self._stamp(stamps, measure)
+            made = self._report((0.0, 1e3 * (stamps[-1] - stamps[0]) if measure else 0.0, 0.0), False, planned, sharp=False, telling=False)
+            return replace(made, traced=made.marched > 0, sharpened=False)
+        inputs = FrameInputs.whole(planned, time, size, shown=shown)
         media = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
         self._whole, rest = inputs, coarse_transfer.rest_of(inputs, media)
         self._last = rest
@@ -140,6 +159,9 @@ class Renderer:
         Raises:
             RuntimeError: none has been drawn.
         """
+        if self._turning_shown:
+            self._turning.draw_stars(target, viewport)
+            return
         if self._last is None:
             raise RuntimeError("no picture has been drawn yet: `render` comes first")
         scene = self._last.plan.scene
@@ -313,7 +335,7 @@ class Renderer:
         return self.hit_map.fates_and_steps()
 
     def hits(self) -> HitArrays:
-        """The hit map of the last frame."""
+        """The hit map of the last frame that was not filtered from light kept by direction."""
         return self.hit_map.read()
 
     def values_at(self, place: tuple[float, float]) -> PixelValues | None:
@@ -332,7 +354,7 @@ class Renderer:
         """The pixels of the last frame, one of `scene`, whose rays meet the instance called `path`, bool (height, width), bottom row first; None where not
         every pixel has a ray of its own, or no ray can meet it."""
         number = instance_numbers.number_of(scene, path)
-        if number is None or not self.hit_map.textures or not self.hit_map.is_sharp:
+        if number is None or self._turning_shown or not self.hit_map.textures or not self.hit_map.is_sharp:
             return None
         return self._where_apart(self._whole, number) if self._whole is not None and self._is_apart else self.hit_map.where_met(number)
 
@@ -348,7 +370,7 @@ class Renderer:
         return np.kron(self._sample_map.where_met(number), np.ones((4, 4), bool))[:height, :width]
 
     def _ray_at(self, place: tuple[float, float]) -> tuple[FrameInputs, HitArrays, tuple[int, int]] | None:
-        if not self.hit_map.textures:
+        if self._turning_shown or not self.hit_map.textures:
             return None
         pixel = math.floor(place[0] * self.hit_map.textures[0].width), math.floor(place[1] * self.hit_map.textures[0].height)
         found = self.hit_map.at(pixel)
@@ -374,6 +396,7 @@ class Renderer:
         self._shade.release()
         self._post.release()
         self._stars.release()
+        self._turning.release()
         for tables in (self._tables, self._reference_tables, self._temperatures):
             tables.release()
         for target in (self._radiance, self._picture):
@@ -445,7 +468,9 @@ class Renderer:
 
     def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan, *, sharp: bool, telling: bool) -> FrameReport:
         made, exposure = self.hit_map, self.exposure
-        return FrameReport(*took_ms, traced, sharp, made.sharpened or telling, plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled)
+        marched, self._marched = self._marched, self.hit_map.marched + self.edges.marched + self._turning.marched
+        told = plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled
+        return FrameReport(*took_ms, traced, self._marched - marched, sharp, made.sharpened or telling, *told)
 
     def _stamp(self, stamps: list[float], measure: bool) -> None:
         if measure:

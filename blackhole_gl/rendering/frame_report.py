@@ -12,6 +12,7 @@ class FrameReport:
     Attributes:
         trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
         traced: whether rays were traced; False when the kept hit map served.
+        marched: how many rays were, for the picture's pixels and for what it keeps of directions beside it.
         sharp: whether every pixel had a ray of its own.
         sharpened: whether the rays traced only made a slice of a kept map exact, or told what lies along kept ones, so that what it took says little.
         method: the plan's method in a few words.
@@ -25,6 +26,7 @@ class FrameReport:
     shade_ms: float
     post_ms: float
     traced: bool
+    marched: int
     sharp: bool
     sharpened: bool
     method: str

@@ -25,6 +25,7 @@ from .instance_numbers import Number
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .ray_blocks import FreshBlocks, RayBlocks
+from .shifted import shifted_into
 from .squares import Squares
 from .tables import Tables
 from .target import Target
@@ -55,6 +56,8 @@ class HitMap:
         generation: of what the map holds: a number that no other trace of this process has had.
         known: of a refined map that the last `trace` has made, which things its cells may show; None of other maps, or where that is not known.
         sharpened: whether the last `trace` only made a slice of the kept map exact.
+        marched: how many rays have been traced for pixels of maps.
+        parts: the squares that a map which is traced in parts holds; None where it holds all.
     """
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, tables: Tables):
@@ -63,8 +66,11 @@ class HitMap:
         self.traces = 0
         self.generation = 0
         self.sharpened = False
+        self.marched = 0
+        self.parts: Squares | None = None
         self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
+        self._spare: moderngl.Texture | None = None  # of the pool's size
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._key: tuple | None = None  # of all but the things and media, which have a key of their own
         self._met: FrameMet = NOTHING_MET
@@ -99,9 +105,9 @@ class HitMap:
         before, self._met = self._met, FrameMet.of(inputs)
         self.known = None
         changed = self._squares_changed(inputs, before) if stands else None
-        held = held and changed is not None
+        held = held and changed is not None and self.parts is None
         self.sharpened = refined and held and not self.is_sharp
-        self._last = inputs
+        self._last, self.parts = inputs, None
         if held and self.is_sharp and not changed:
             return False
         self._bind_tables(rays)
@@ -120,6 +126,34 @@ class HitMap:
         self.generation = next(_GENERATIONS)
         self._changed = (generation, changed) if changed and was_sharp else None
         return True
+
+    def extend(self, inputs: FrameInputs, squares: Squares) -> None:
+        """Traces `squares` of the picture of `inputs` more than a sharp map of it holds, or nothing but these where it holds another; what it does not hold
+        yet is unresolved. For pictures without things."""
+        rays = self._programs.get("trace.frag", inputs)
+        key, generation = _key_of(inputs, rays), self.generation
+        stands = self.parts is not None and key == self._key
+        self._blocks, self._last, self._refined_for = None, inputs, None
+        self._bind_tables(rays)
+        target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, 0, inputs.plan.times))
+        if not stands:
+            target.clear()
+        self._trace_squares(rays, target, squares)
+        self._changed = (generation, squares) if stands else None
+        self.parts = self.parts.and_also(squares, inputs.size) if stands and self.parts is not None else squares
+        self._key, self.generation = key, next(_GENERATIONS)
+        self.traces += 1
+
+    def shift(self, inputs: FrameInputs, squares: Squares, by: tuple[int, int]) -> None:
+        """Makes an extended map one of the picture of `inputs`, whose pixels it had where they are when `by` is added; of it `squares` are known."""
+        self._blocks, self._last, self._changed = None, inputs, None
+        for k, held in enumerate(self.textures):
+            self._spare = self._spare or self._texture(held.size)
+            shifted_into(self._ctx, self._programs, inputs, self._spare, held, squares, by)
+            self._pool[k], self._spare = self._spare, held
+        self._release_frames()
+        self._make_targets(inputs.size, len(self.textures))
+        self.parts, self._key, self.generation = squares, _key_of(inputs, self._programs.get("trace.frag", inputs)), next(_GENERATIONS)
 
     def changed_since(self, generation: int) -> Squares | None:
         """The squares of a sharp map that alone differ from what it was at that `generation`; None where all of it may."""
@@ -233,6 +267,7 @@ class HitMap:
         target.scissor = 0, first, width, end - first
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         rays.draw()
+        self.marched += width * (end - first)
         target.scissor = None  # type: ignore[assignment]  # moderngl's stubs lack what they say in words: None is the whole
         if end == height:
             self._refined_for, self._sharp_rows = None, 0
@@ -242,6 +277,7 @@ class HitMap:
         target.use()
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         rays.draw_squares(squares)
+        self.marched += len(squares) * squares.side**2
         if not self.is_sharp:
             self._grid.give_things(rays.inputs, squares, self._sharp_rows)
 
@@ -269,6 +305,7 @@ class HitMap:
             self._grid.trace(rays, None)
             self._grid.trace_own_rays(rays, self.textures, OWN_RAYS)
         self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
+        self.marched += self._grid.marched
 
     def _sharpen(self, rays: Draw, target: moderngl.Framebuffer) -> None:
         height = target.size[1]
@@ -387,14 +424,17 @@ class HitMap:
         if self._pool and self._pool[0].size != size:
             self._release_targets()
         while len(self._pool) < count:
-            texture = self._ctx.texture(size, 4, dtype="f4")
-            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-            texture.repeat_x = texture.repeat_y = False
-            self._pool.append(texture)
+            self._pool.append(self._texture(size))
         self.textures = self._pool[:count]
         if count not in self._targets:
             self._targets[count] = self._ctx.framebuffer(self.textures)
         return self._targets[count]
+
+    def _texture(self, size: tuple[int, int]) -> moderngl.Texture:
+        texture = self._ctx.texture(size, 4, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        texture.repeat_x = texture.repeat_y = False
+        return texture
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -408,11 +448,15 @@ class HitMap:
             self._pixels = None
 
     def _release_targets(self) -> None:
+        self._release_frames()
+        for texture in (*self._pool, *([] if self._spare is None else [self._spare])):
+            texture.release()
+        self._pool, self.textures, self._key, self._spare = [], [], None, None
+
+    def _release_frames(self) -> None:
         for target in self._targets.values():
             target.release()
-        for texture in self._pool:
-            texture.release()
-        self._targets, self._pool, self.textures, self._key = {}, [], [], None
+        self._targets = {}
 
 
 def _texels(texture: moderngl.Texture) -> np.ndarray:

@@ -55,6 +55,12 @@ class FrameInputs:
         made.__dict__["blocks"] = self.blocks
         return made
 
+    def in_picture(self, plan: Plan, size: tuple[int, int]) -> FrameInputs:
+        """The same blocks for what is drawn as if it were a picture of `size` by `plan`: for what asks no rays."""
+        made = replace(self, plan=plan, size=size, picture=size, offset=(0.0, 0.0))
+        made.__dict__["blocks"] = self.blocks
+        return made
+
     @cached_property
     def blocks(self) -> dict[str, bytes]:
         """The packed uniform blocks by name.

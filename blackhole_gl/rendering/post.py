@@ -119,6 +119,24 @@ class PostPass:
             radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._tone_map(inputs, target, viewport, viewport[:2], viewport[2:], _Window(radiance.size, (0, 0)), glow)
 
+    def draw_part(self, inputs: FrameInputs, radiance: moderngl.Texture, corner: tuple[int, int], target: moderngl.Framebuffer) -> None:
+        """Makes the part of `radiance` (RGBA16F) that begins at the pixel `corner` and is as large as `target` and `inputs` the picture in there, as if it
+        were all of one."""
+        radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        radiance.repeat_x = radiance.repeat_y = False
+        self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
+        if inputs.plan.scene.post.bloom:
+            self._make_levels(next(bloom_sizes(inputs.size)))
+            self._draw_quarter(inputs, radiance, self._down[0], start=(corner[0] / radiance.width, corner[1] / radiance.height))
+            self.samplers["glow"] = self._spread(inputs)
+        glow = self.samplers.get("glow")
+        covered = None if glow is None else (GLOW_SHRINKS * glow.width, GLOW_SHRINKS * glow.height)
+        light = _Window(radiance.size, (-corner[0], -corner[1]))
+        radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self._tone_map(inputs, target, (0, 0, *inputs.size), (0, 0), inputs.size, light, None if covered is None else _Window(covered, (0, 0)))
+        if covered is not None:
+            self.glow_window = _Window(covered, corner).of(radiance.size)  # from a place in all of the light
+
     def bright(self, inputs: FrameInputs, radiance: moderngl.Texture) -> np.ndarray:
         """What glows of `radiance` (RGBA16F), at a quarter of its size, rounded up: float16 (height, width, 4), row 0 at the bottom."""
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
@@ -223,13 +241,15 @@ class PostPass:
         self._draw_quarter(inputs, radiance, self._down[0], _glow_beyond(inputs))
         return self._spread(inputs)
 
-    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level, beyond: int = 0) -> None:
-        """What glows of `radiance`, and of what stands so many pixels `beyond` its left and right border where it goes round."""
+    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level, beyond: int = 0, start: tuple[float, float] = (0.0, 0.0)) -> None:
+        """What glows of `radiance` from the place `start`, 0…1, on, and of what stands so many pixels `beyond` its left and right border if it goes round."""
         down = self._programs.get("post/bloom_down.frag", inputs)
         down.sample({"source": radiance})
         down.set(**_places("source", radiance, radiance.size, GLOW_SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
         if not beyond:
+            down.set(source_start=start)
             draw_into(level, down)
+            down.set(source_start=(0.0, 0.0))
             return
         level.target.frame.use()
         around = projection.filled(inputs.plan.scene.camera, radiance.size)[0]

@@ -41,7 +41,7 @@ RAY_SLOTS = ("ray_model", "integrator", "step_control")
 SHADE_SLOTS = ("disk_layer", "sky")
 MET_SLOTS = ("thing", "medium")
 
-_VERTEX = {"star_layer.frag": "star_layer.vert"}  # of programs that draw points; all others draw a triangle
+_VERTEX = {"star_layer.frag": "star_layer.vert", "turned.frag": "turned.vert"}  # of programs that draw points or a mesh; all others draw a triangle
 
 _BETWEEN = "\0"  # a program's two texts, neither of which may hold it
 
@@ -174,6 +174,11 @@ class Draw:
         """Draws `squares` of the bound target alone."""
         self._buffers.bind(self.inputs, self.compiled.names)
         self._squares.draw(self.compiled.squares, squares)
+
+    def draw_mesh(self, columns: int, rows: int) -> None:
+        """Draws a mesh, by a program whose vertex shader places the two triangles of each of its quads."""
+        self._buffers.bind(self.inputs, self.compiled.names)
+        self.compiled.triangle.render(moderngl.TRIANGLES, vertices=6 * columns * rows)
 
     def draw_points(self, count: int) -> None:
         """Draws `count` points, by a program whose vertex shader places them."""

@@ -12,7 +12,7 @@ import numpy as np
 from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
 from .boxes import Box, bands_of
-from .classes import Where, drawn
+from .classes import OPEN_THINGS, OWN_RAYS, Where, drawn
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
@@ -75,6 +75,13 @@ class CoarseGrid:
         if self._kept is None:
             raise RuntimeError("no coarse grid has been traced yet: `trace` comes first")
         return self._kept
+
+    @property
+    def marched(self) -> int:
+        """Rays of the last `trace` and of its pixels that cannot be interpolated."""
+        columns, rows = self._made.rays.size
+        own = 0 if self._cells is None else int(np.count_nonzero(OWN_RAYS.holds(self._cells) | OPEN_THINGS.holds(self._cells)))
+        return columns * rows + own * REFINE_STEP**2
 
     @property
     def classes(self) -> moderngl.Texture:

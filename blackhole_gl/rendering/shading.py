@@ -29,6 +29,10 @@ _STRETCHES = {"STRETCHES": 1}
 
 _A_FRAME = 40_000  # rays through media that are marched exactly between two pictures
 
+NO_SWITCHES: Mapping[str, int] = {}
+
+_BEHIND = {"SKY_BEHIND": 1}
+
 
 class ShadePass:
     """Draws shaders/shade_*.frag.
@@ -96,6 +100,27 @@ class ShadePass:
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
         self._overlays.draw_hole(inputs, hit_map, frame)
+
+    def draw_sky_in(self, squares: Squares, inputs: FrameInputs, hit_map: HitMap, frame: moderngl.Framebuffer) -> None:
+        """Draws the sky of a sharp map without things in `squares` of `frame`, which has the pixels' classes as its depth."""
+        frame.use()
+        frame.depth_mask = False
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._draw_classes(self._prepared_sky(inputs, hit_map, hit_map.switches()), SKY, squares=squares)
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+
+    def draw_disk_in(self, squares: Squares, inputs: FrameInputs, hit_map: HitMap, frame: moderngl.Framebuffer, sky: moderngl.Texture) -> None:
+        """The same of the disk, before the light that `sky` holds."""
+        frame.use()
+        frame.depth_mask = False
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        matter = self._programs.get("shade_matter.frag", inputs, {**hit_map.switches(), **_BEHIND})
+        matter.sample({**self._samplers(inputs, hit_map), "sky_behind": sky})
+        hit_map.tell_blocks(matter)
+        self._draw_classes(matter, MATTER, squares=squares)
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
 
     def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: Mapping[str, int], behind: int) -> None:
         """The disk, things and media, and what they let through of the sky `behind` them: of all colours alike, or of each its own.
@@ -196,9 +221,9 @@ class ShadePass:
             prepared.set(finer=min(inputs.finer))
         return prepared
 
-    def stars(self, inputs: FrameInputs, hit_map: HitMap) -> tuple[Draw, Samplers]:
+    def stars(self, inputs: FrameInputs, hit_map: HitMap, switches: Mapping[str, int] = NO_SWITCHES) -> tuple[Draw, Samplers]:
         """What draws the single stars of a picture that is to be shown enlarged, and was drawn without them; its samplers are still to be bound."""
-        return self._programs.get("star_layer.frag", inputs, {**hit_map.switches(), **TONE_TABLE}), self._samplers(inputs, hit_map)
+        return self._programs.get("star_layer.frag", inputs, {**hit_map.switches(), **TONE_TABLE, **switches}), self._samplers(inputs, hit_map)
 
     def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import moderngl
 
+from ..glsl.declared import PixelClass
 from ..scene import Scene
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -73,7 +74,10 @@ class PixelSorting:
         self._target.frame.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        if changed is None:
+        if changed is None and hit_map.parts is not None:
+            self._target.frame.clear(1.0, 1.0, depth=PixelClass.NEITHER.depth)  # no ray
+            classes.draw_squares(hit_map.parts)
+        elif changed is None:
             classes.draw()
         else:
             classes.draw_squares(changed)

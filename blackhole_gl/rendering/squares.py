@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
 import numpy as np
 
-from ..shapes import Float, Int
+from ..shapes import Bool, Float, Int
+from .boxes import Box, boxes_of
 
 TOGETHER = 4
 """Pixels along each axis that software renderers shade together, whichever of them are asked for."""
@@ -44,6 +46,15 @@ class Squares:
         rows, column = np.divmod(np.flatnonzero(np.bincount(pixels[:, 1] // side * columns + pixels[:, 0] // side)), columns)
         return cls.of(np.stack([column, rows], axis=-1), side, size)
 
+    @classmethod
+    def picked(cls, cells: Bool[np.ndarray, "rows columns"], side: int, size: tuple[int, int]) -> Squares:
+        """Those of a picture of `size` whose cell of `side` pixels each way is picked."""
+        return cls.of(np.argwhere(cells)[:, ::-1], side, size)
+
+    def and_also(self, others: Squares, size: tuple[int, int]) -> Squares:
+        """Both, of a picture of `size`; they have the same side."""
+        return Squares.of(np.concatenate([self.places, others.places]), self.side, size)
+
     def __len__(self) -> int:
         return len(self.places)
 
@@ -52,6 +63,10 @@ class Squares:
         x, y = (self.side * self.places.min(axis=0)).tolist()
         right, top = np.minimum(self.side * (self.places.max(axis=0) + 1), size).tolist()
         return x, y, right - x, top - y
+
+    def boxes(self, size: tuple[int, int]) -> Iterator[Box]:
+        """Boxes in pixels that hold them all, of a picture of `size`: of each few rows those that lie together."""
+        return boxes_of(self.mask(size, self.side), self.side)
 
     def holds(self, pixels: Int[np.ndarray, "pixels 2"], size: tuple[int, int]) -> np.ndarray:
         """Which of `pixels`, column and row each, lie in them, bool (N,)."""

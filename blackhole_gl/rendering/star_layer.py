@@ -38,15 +38,34 @@ class StarLayer:
             glow_window: of the coarse picture's glow, where it has one: `PostPass.glow_window`.
             radiance: of the coarse picture; alpha tells where there are stars (shaders/shade_sky.frag).
         """
-        first, second = _with_stars(radiance)
+        stars.set(finer=(radiance.size[0] / viewport[2], radiance.size[1] / viewport[3]))
+        found = with_stars(np.frombuffer(radiance.frame.read(components=4, alignment=1, dtype="f2"), np.dtype("<u8")))
+        first, second = (np.stack([pixels % radiance.size[0], pixels // radiance.size[0]], axis=-1) for pixels in found)
+        self.draw_listed(stars, samplers, radiance.texture, (first, second), target, viewport, glow_window)
+
+    def draw_listed(
+        self,
+        stars: Draw,
+        samplers: Samplers,
+        radiance: moderngl.Texture,
+        holding: tuple[np.ndarray, np.ndarray],
+        target: moderngl.Framebuffer,
+        viewport: tuple[int, int, int, int],
+        glow_window: tuple[float, float, float, float],
+    ) -> None:
+        """The same where it is known which pixels hold stars: column and row of those with one at least, int (N, 2), and of those that may have several."""
+        first, second = holding
+        first = first if len(first) else np.zeros((1, 2), int)  # a first star must not be what a driver compiles for
         pixels = np.concatenate([first, second])
         x, y, width, height = viewport
-        radiance.texture.filter = moderngl.LINEAR, moderngl.LINEAR
-        stars.sample({**samplers, "pixels": self._list(pixels, radiance.size[0])})
+        radiance.filter = moderngl.LINEAR, moderngl.LINEAR
+        stars.sample({**samplers, "pixels": self._list(pixels)})
         if "glow" in samplers:
             stars.set(glow_window=glow_window)
-        stars.set(firsts=len(first), finer=(radiance.size[0] / width, radiance.size[1] / height))
-        stars.set(target_origin=(x, y), target_texel=(1.0 / width, 1.0 / height))
+        texel = 1.0 / width, 1.0 / height
+        stars.set(firsts=len(first), target_origin=(x, y), shown_texel=texel)
+        if stars.takes("target_texel"):
+            stars.set(target_texel=texel)
         outer = target.viewport
         target.use()
         target.viewport = viewport
@@ -63,21 +82,19 @@ class StarLayer:
             self._listed.release()
         self._listed = None
 
-    def _list(self, pixels: np.ndarray, width: int) -> moderngl.Texture:
+    def _list(self, pixels: np.ndarray) -> moderngl.Texture:
         rows = -(-len(pixels) // _ROW)
         if self._listed is None or self._listed.height < rows:
             self.release()
             self._listed = self._ctx.texture((_ROW, rows + rows // 2), 2, dtype="f4")
         places = np.zeros((rows * _ROW, 2), np.float32)
-        places[: len(pixels), 1], places[: len(pixels), 0] = np.divmod(pixels, width)
+        places[: len(pixels)] = pixels
         self._listed.write(places.tobytes(), (0, 0, _ROW, rows))
         return self._listed
 
 
-def _with_stars(radiance: Target) -> tuple[np.ndarray, np.ndarray]:
-    """Indices of the pixels with stars, one at least, and of those that may have several; from the bottom left, row by row."""
-    texels = np.frombuffer(radiance.frame.read(components=4, alignment=1, dtype="f2"), np.dtype("<u8"))
+def with_stars(texels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Which of a picture's `texels` (RGBA16F, each as one integer of 64 bits) have stars, one at least, and which may have several."""
     found = np.flatnonzero(texels >= 1 << 48)
     alpha = (texels[found] >> np.uint64(48)).astype(np.uint16).view(np.float16)
-    first, second = found[alpha != 0.0], found[alpha < 0.0]
-    return (first if first.size else np.zeros(1, int)), second  # a first star must not be what a driver compiles for
+    return found[alpha != 0.0], found[alpha < 0.0]

@@ -187,6 +187,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "REACH_FINER": 0, "CELLS_FILLED": 0, "BALLS_KNOWN": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(instances.used(plan.scene))}
     found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0), "THINGS": int(bool(plan.scene.things)), "STRETCHES": 0, "GRID": 0}
+    found |= {"SKY_BEHIND": 0, "TURNED": 0}
     found |= {"LISTED": 0, "FROM_CAMERA": 0, "SAMPLES": 0, "OVERLAY_SKY": 0}
     found |= {"ROWS_HELD": int(len(plan.scene.media) == len(met.kinds(plan.scene, "medium")))}
     found["CAMERA_FALLS"] = int(plan.model.traits.crosses_horizon and plan.scene.camera.observer in observer.FALLING)

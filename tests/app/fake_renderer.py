@@ -63,7 +63,7 @@ class FakeRenderer:
         self.us_per_pixel = 0.0
         self.finer, self.finer_of = 0, None
 
-    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False, glow_may_last=False, shown=None):
+    def render(self, scene, time, size, target=None, viewport=None, *, measure=False, progressive=False, glow_may_last=False, shown=None, may_turn=False):
         if self.fail is not None:
             raise self.fail
         self.calls.append((scene, time, size))

@@ -29,9 +29,9 @@ def show(ctx: moderngl.Context, renderer: Renderer):
     window = Target.of(ctx, [ctx.texture(AREA, 4, dtype="f4")])
     targets = Targets(ctx, renderer)
 
-    def run(scene: Scene, scale: float, time: float = 3.0) -> np.ndarray:
+    def run(scene: Scene, scale: float, time: float = 3.0, *, pans: bool = False) -> np.ndarray:
         area = Area(0, 0, *AREA)
-        targets.render_into(window.frame, area, Drawing(scene, time, area.scaled(scale), area.size, progressive=scale < 1.0, passes=False))
+        targets.render_into(window.frame, area, Drawing(scene, time, area.scaled(scale), area.size, progressive=scale < 1.0 or pans, passes=False))
         code = np.frombuffer(window.texture.read(), np.float32).reshape(HEIGHT, WIDTH, 4)[..., :3].astype(float)
         return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4).sum(axis=-1)
 
@@ -73,12 +73,12 @@ def test_the_faintest_stars_shine_as_at_rest(show: Show, curve: str, scale: floa
         assert all(a == pytest.approx(b, rel=0.1) for a, b in light), "none is lost for another"
 
 
-@pytest.mark.parametrize("scale", [0.71, 0.5])
+@pytest.mark.parametrize("scale", [1.0, 0.71, 0.5])
 def test_a_star_does_not_flicker_in_a_slow_pan(show: Show, scale: float) -> None:
     """Three pixels in frames of a tenth. 3 %: the kernel's own ripple on the pixel grid is 2 %. Measured is 1 %, but for a star half a haze."""
     values = {**BARE, "disk.enabled": False, "post.tone_map": "linear", "post.exposure": -3.0}
     scene = presets.load(["kerr"], {**values, "camera.yaw_deg": 25.0})
-    panned = [show(scene.with_values({"camera.yaw_deg": 25.0 + 0.1 * (step - 15) * PIXEL_DEG}), scale) for step in range(30)]
+    panned = [show(scene.with_values({"camera.yaw_deg": 25.0 + 0.1 * (step - 15) * PIXEL_DEG}), scale, pans=True) for step in range(-1, 30)][1:]  # under way
     seen = stars(panned[15], alone=16)
     assert len(seen) >= 10
     for window in seen:

@@ -1,0 +1,204 @@
+"""Directions about an observer at even steps of longitude and latitude, and which of them a view shows. All in float64.
+
+Directions are those of the observer's frame (physics/observer.py), in which a camera that turns or zooms changes nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..physics import projection
+from ..physics.observer import look_rotation
+from ..scene import Camera
+from ..shapes import Bool, Float
+from .boxes import Box
+
+CELL = 16
+"""Pixels along each side of the squares that a grid is known by."""
+
+# Of a view: its middle may stand so far from the grid's equator, where a pixel is narrower by a twelfth; and nothing of it nearer to a pole than that.
+_MIDDLE_WITHIN_DEG, _ALL_WITHIN_DEG = 22.0, 75.0
+_TILT_DEG = 12.0  # from there on a grid is rolled and pitched as the view, so that its box holds little else
+
+_ON_A_SIDE = 33  # places at which a view's border is looked at: its middle is one
+_WIDE_PIXEL = 2e-3  # rad
+_BEYOND = 3.0  # pixels about a view that its box holds, for filters
+
+
+_FROM_SCREEN = np.array([[0.0, 0.0, -1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])  # (back, down, right) from (x, y, 1) on a screen at distance 1
+
+
+@dataclass(frozen=True)
+class View:
+    """What a camera shows of all directions.
+
+    Attributes:
+        look: rotation (3, 3) from the view's (back, down, right) to the observer's frame.
+        half: half the picture's width and height at distance 1.
+        size: (width, height) in pixels.
+    """
+
+    look: Float[np.ndarray, "3 3"]
+    half: tuple[float, float]
+    size: tuple[int, int]
+
+    @classmethod
+    def of(cls, camera: Camera, size: tuple[int, int]) -> View:
+        """The view of a perspective `camera` that is not at infinity, in a picture of `size`."""
+        high = projection.half_height(camera)
+        return cls(look_rotation(camera), (high * size[0] / size[1], high), size)
+
+    @property
+    def pixel(self) -> float:
+        """The angle in radians of a pixel in the middle."""
+        return 2.0 * self.half[1] / self.size[1]
+
+    @property
+    def mesh_side(self) -> int:
+        """Side in pixels of the quads of a mesh so fine that the angles of directions are linear in each of them to a quarter of a pixel. A multiple of what
+        software renderers shade together, as squares that two quads share are shaded twice."""
+        return 32 if self.pixel < _WIDE_PIXEL else 16
+
+    @cached_property
+    def border(self) -> Float[np.ndarray, "places 3"]:
+        """Directions all along the picture's edge."""
+        along = np.linspace(-1.0, 1.0, _ON_A_SIDE)
+        sides = [np.stack([along, np.full_like(along, side)], axis=-1) for side in (-1.0, 1.0)]
+        places = np.concatenate([*sides, *(side[:, ::-1] for side in sides)]) * self.half
+        return np.column_stack([-np.ones(len(places)), -places[:, 1], places[:, 0]]) @ self.look.T
+
+    def shows(self, directions: Float[np.ndarray, "*at 3"], within: float) -> Bool[np.ndarray, "*at"]:
+        """Which unit vectors (…, 3) lie in the picture, or `within` so many radians of its edge."""
+        back, down, right = np.moveaxis(directions @ self.look, -1, 0)
+        ahead = np.maximum(-back, 1e-6)
+        x, y = np.abs(right) / ahead, np.abs(down) / ahead
+        room = within * (1.0 + x * x + y * y)
+        return (back < 0.0) & (x < self.half[0] + room) & (y < self.half[1] + room)
+
+
+@dataclass(frozen=True)
+class DirectionGrid:
+    """A part of the equirectangular picture of all directions.
+
+    Attributes:
+        axes: rotation (3, 3) from that picture's (back, down, right) to the observer's frame.
+        yaw_deg, pitch_deg, roll_deg: of a camera that has these axes.
+        rows: of the whole picture, which has twice as many columns.
+        corner: column and row of the whole picture at which the part begins.
+        size: (width, height) of the part, whole numbers of `CELL`.
+    """
+
+    axes: Float[np.ndarray, "3 3"]
+    yaw_deg: float
+    pitch_deg: float
+    roll_deg: float
+    rows: int
+    corner: tuple[int, int]
+    size: tuple[int, int]
+
+    @classmethod
+    def about(cls, camera: Camera, view: View, finer: float, margin: tuple[float, float]) -> DirectionGrid | None:
+        """One that holds the `view` of `camera` and `margin` of its width and height more on each side, its pixels `finer` times as many along each axis as in
+        the view's middle; None where the view is too wide for one."""
+        tilted = abs(camera.pitch_deg) > _TILT_DEG or abs(camera.roll_deg) > _TILT_DEG
+        pitch, roll = (camera.pitch_deg, camera.roll_deg) if tilted else (0.0, 0.0)
+        rows = 2 * round(0.5 * math.pi * finer / view.pixel)
+        level = Camera(distance=camera.distance, yaw_deg=camera.yaw_deg, pitch_deg=pitch, roll_deg=roll)
+        whole = cls(look_rotation(level), camera.yaw_deg, pitch, roll, rows, (0, 0), (2 * rows, rows))
+        if not whole.can_show(view):
+            return None
+        (x, y, width, height), across = whole.box(view), tuple(2 * rows // side for side in (1, 2))
+        low = [max(int(first - share * side), 0) for first, share, side in ((x, margin[0], width), (y, margin[1], height))]
+        sides = (x, margin[0], width, across[0]), (y, margin[1], height, across[1])
+        high = [min(int(first + (1.0 + share) * side), most) for first, share, side, most in sides]
+        return cls(whole.axes, whole.yaw_deg, pitch, roll, rows, (low[0], low[1]), (_cells(high[0] - low[0]), _cells(high[1] - low[1])))
+
+    @property
+    def picture(self) -> tuple[int, int]:
+        """(width, height) of the whole."""
+        return 2 * self.rows, self.rows
+
+    @property
+    def pixel(self) -> float:
+        """The angle in radians from one to the next."""
+        return math.pi / self.rows
+
+    def places(self, directions: Float[np.ndarray, "*at 3"]) -> Float[np.ndarray, "*at 2"]:
+        """Where in the part `directions` (…, 3) of any length are, in pixels from its lower left."""
+        back, down, right = np.moveaxis(directions @ self.axes, -1, 0)
+        angles = np.stack([np.arctan2(right, -back), np.arctan2(-down, np.hypot(back, right))], axis=-1)
+        return angles / self.pixel + np.array([self.rows, 0.5 * self.rows]) - self.corner
+
+    def box(self, view: View) -> Box:
+        """The smallest part of it that holds all that `view` shows, and what filters take beside; it may reach beyond."""
+        at = self.places(view.border)
+        low, high = np.floor(at.min(axis=0) - _BEYOND), np.ceil(at.max(axis=0) + _BEYOND)
+        return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
+
+    def can_show(self, view: View) -> bool:
+        """Whether `view` is neither so far from the equator nor so wide that pixels about a pole would be many for what they show."""
+        middle, border = ((at + self.corner)[..., 1] * self.pixel - 0.5 * math.pi for at in (self.places(-view.look[:, 0]), self.places(view.border)))
+        wide = math.atan(math.hypot(*view.half))
+        return bool(abs(middle) < math.radians(_MIDDLE_WITHIN_DEG) and max(wide, np.abs(border).max()) < math.radians(_ALL_WITHIN_DEG))
+
+    def moved_to(self, view: View) -> DirectionGrid | None:
+        """One of the same pixels, and as large, in whose middle `view` lies, moved by whole cells; None where that goes beyond a pole, or half round a grid
+        that is tilted."""
+        x, y, width, height = self.box(view)
+        columns, rows = (round((first + 0.5 * (side - most)) / CELL) * CELL for first, side, most in zip((x, y), (width, height), self.size))
+        corner, turned = (self.corner[0] + columns, self.corner[1] + rows), self
+        if not self.pitch_deg and not self.roll_deg:  # longitude 0 goes along
+            yaw = (self.yaw_deg + columns * math.degrees(self.pixel) + 180.0) % 360.0 - 180.0
+            corner = self.corner[0], self.corner[1] + rows
+            turned = replace(self, yaw_deg=yaw, axes=look_rotation(Camera(yaw_deg=yaw)))
+        low = min(max(corner[1], 0), (self.rows - self.size[1]) // CELL * CELL)
+        moved = replace(turned, corner=(corner[0], corner[1] + CELL * round((low - corner[1]) / CELL)))
+        return moved if 0 <= moved.corner[0] <= 2 * self.rows - self.size[0] and moved.corner[1] >= 0 and moved.holds(view) else None
+
+    def holds(self, view: View) -> bool:
+        """Whether all of `view` lies in it."""
+        x, y, width, height = self.box(view)
+        beside = zip((x, y), (width, height), self.size)
+        return self.can_show(view) and all(first >= 0 and first + side <= size for first, side, size in beside)
+
+    def seen(self, view: View, beside: float = 0.0) -> Bool[np.ndarray, "rows columns"]:
+        """Which of its cells hold anything that `view` shows, or that lies within so many pixels `beside` it."""
+        return view.shows(self._cell_directions, (0.72 * CELL + _BEYOND + beside) * self.pixel)
+
+    def from_plane(self, view: View, box: Box) -> tuple[tuple[float, ...], tuple[float, float, float, float]]:
+        """How a picture of `view` finds what it shows in the part `box`.
+
+        Returns:
+            The matrix (3, 3), column by column, from a place in the picture (x, y, 1), −1…1 from edge to edge, to (right, up, ahead), turned to where the
+            view's middle has longitude 0; and scale and shift from (longitude, latitude) there, in radians, to the place in the box, 0…1.
+        """
+        local = self.axes.T @ view.look @ _FROM_SCREEN @ np.diag([*view.half, 1.0])  # rows: back, down, right
+        middle = self.axes.T @ -view.look[:, 0]
+        longitude = math.atan2(middle[2], -middle[0])
+        c, s = math.cos(longitude), math.sin(longitude)
+        around = np.stack([c * local[2] + s * local[0], -local[1], -c * local[0] + s * local[2]])
+        x, y = longitude / self.pixel + self.rows - self.corner[0] - box[0], 0.5 * self.rows - self.corner[1] - box[1]
+        place = 1.0 / (self.pixel * box[2]), 1.0 / (self.pixel * box[3]), x / box[2], y / box[3]
+        return tuple(around.T.ravel().tolist()), place
+
+    def to_plane(self, view: View) -> tuple[float, ...]:
+        """The matrix (3, 3), column by column, from (back, down, right) to a place in the picture of `view`, (x, y, 1) · ahead, −1…1 from edge to edge."""
+        found = np.diag([1.0 / view.half[0], 1.0 / view.half[1], 1.0]) @ _FROM_SCREEN.T @ view.look.T @ self.axes
+        return tuple(found.T.ravel().tolist())
+
+    @cached_property
+    def _cell_directions(self) -> Float[np.ndarray, "rows columns 3"]:
+        columns, rows = (np.arange(side // CELL) * CELL + 0.5 * CELL for side in self.size)
+        right, up = (columns + self.corner[0] - self.rows) * self.pixel, (rows + self.corner[1] - 0.5 * self.rows) * self.pixel
+        right, up = np.meshgrid(right, up)
+        return np.stack([-np.cos(up) * np.cos(right), -np.sin(up), np.cos(up) * np.sin(right)], axis=-1) @ self.axes.T
+
+
+def _cells(pixels: int) -> int:
+    """`pixels` rounded up to whole cells, and never a power of two: docs/llvmpipe.md."""
+    whole = -(-pixels // CELL) * CELL
+    return whole + CELL if whole & (whole - 1) == 0 else whole
