@@ -35,15 +35,15 @@ def pretended_dialog(folder: Path) -> Path:
     return program.parent
 
 
-def run(names: list[str], folder: Path, **variables: str) -> None:
-    """Runs scenarios in one process, with environment `variables`; `folder` stands for the user's configuration folder."""
+def run(names: list[str], folder: Path, seconds: float = 250.0, **variables: str) -> None:
+    """Runs scenarios in one process, in so many seconds, with environment `variables`; `folder` stands for the user's configuration folder."""
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")} | variables
     environment["BLACKHOLE_GL_CONFIG_DIR"] = str(folder)
     environment["PATH"] = os.pathsep.join([str(pretended_dialog(folder)), environment["PATH"]])
     (folder / "fonts").mkdir()
     shutil.copy(Path(matplotlib.get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"), folder / "fonts")
     (folder / "fonts" / "broken.ttf").write_bytes(b"no font at all")
-    done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, cwd=folder, capture_output=True, text=True, timeout=250)
+    done = subprocess.run([sys.executable, str(HERE / "drive.py"), *names], env=environment, cwd=folder, capture_output=True, text=True, timeout=seconds)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
@@ -65,8 +65,9 @@ def test_scenarios_with_kinds_of_the_users_own(tmp_path):
 
 
 @pytest.mark.parametrize("names", [TOGETHER[0::3], TOGETHER[1::3], TOGETHER[2::3]], ids=["first", "second", "third"])
+@pytest.mark.timeout(600)  # four scenarios that compile, on a busy machine
 def test_scenarios_with_the_real_renderer(names, tmp_path):
-    run(names, tmp_path)
+    run(names, tmp_path, seconds=550.0)
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name.startswith("all_") else name for name in FIRST_DAY])
