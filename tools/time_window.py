@@ -5,7 +5,7 @@
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30), look (the view alone turns to the right: light is kept by direction). Each goes on for `--settle` seconds before frames count, the first of them
+out to 30), look (the view alone turns to the right). Each goes on for `--settle` seconds before frames count, the first of them
 not before the scene's own programs are there. A figure stands for the machine and its screen together: on a display with vertical synchronisation no frame is
 shorter than the screen's.
 """

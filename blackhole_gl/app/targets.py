@@ -137,7 +137,6 @@ class Targets:
             *(drawing.scene, drawing.time, drawing.size),
             measure=True,
             progressive=drawing.progressive,
-            may_turn=drawing.progressive,
             glow_may_last=drawing.passes,
         )
         if drawing.size == drawing.shown:

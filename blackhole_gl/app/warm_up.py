@@ -61,11 +61,6 @@ def _draw(scene: Scene, size: tuple[int, int]) -> None:
         for progressive, time in ((True, 0.0), (True, 1.0), (False, 1.0), (False, 1.0), (False, 2.0)):
             renderer.render(scene, time, size, measure=True, progressive=progressive, glow_may_last=time > 0.0, shown=shown)
             renderer.draw_stars(enlarged.frame, (0, 0, *shown))
-        yaw = scene.camera.yaw_deg
-        for turn in (1.0, 60.0):  # within what is known of directions, and so far that it begins elsewhere
-            turned = scene.with_values({"camera.yaw_deg": yaw + turn if yaw < 0.0 else yaw - turn})
-            renderer.render(turned, 2.0, size, progressive=True, shown=shown, may_turn=True)
-            renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         _draw_media(renderer, scene, size)
         renderer.programs.release()
         renderer.hit_map.forget()
