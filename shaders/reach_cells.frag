@@ -4,6 +4,7 @@
 // And which balls may be the first that is met there, a bit each.
 // REACH_FINER: of cells half as wide as those that were found first, and in these alone.
 #defines
+#blocks
 #include "common/constants.glsl"
 #include "common/reach_node.glsl"
 
