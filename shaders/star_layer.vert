@@ -34,7 +34,8 @@ flat out vec3 stretch;
 flat out vec3 brightest;
 flat out vec3 glowing;
 #if TURNED
-flat out vec2 map_place;  // of `place` in the map, 0…1, and how that changes to the right and up
+// Of `place` in the map, 0…1, and how that changes to the right and up.
+flat out vec2 map_place;
 flat out vec4 map_steps;
 #endif
 

@@ -44,7 +44,7 @@ class MouseValues:
             return
         asked = (place, picture.renderer.hit_map.generation, picture.report)
         if asked != self._of:
-            self._of, self._values = asked, picture.renderer.values_at(place)
+            self._of, self._values = asked, picture.renderer.last.values_at(place)
 
 
 def lines(values: PixelValues) -> list[str]:

@@ -49,7 +49,7 @@ class Picking:
         if not picture.is_current or state.camera_moves:
             return
         if self._asked is not None:
-            found = picture.renderer.instance_at(self._asked)
+            found = picture.renderer.last.instance_at(self._asked)
             if found is not None:
                 self._asked = None
                 _pick(state, found)
@@ -75,7 +75,7 @@ class _Outline:
         of = (path, picture.renderer.hit_map.generation)
         if of == self._of:
             return
-        mask = picture.renderer.pixels_of(scene, path) if path else None
+        mask = picture.renderer.last.pixels_of(scene, path) if path else None
         if path and mask is None:  # not yet: the last one stays
             return
         self._of, self._top = of, None

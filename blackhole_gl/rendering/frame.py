@@ -6,7 +6,6 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -15,12 +14,13 @@ from ..physics import projection
 from ..planning import Plan
 from ..planning import plan as make_plan
 from ..scene import Scene
-from . import coarse_transfer, diagnostics, instance_numbers, instances, kept_light, listed, supersampling, views
+from . import coarse_transfer, diagnostics, instances, kept_light, listed, supersampling, views
 from .coarse_transfer import MediaApart
 from .edges import EdgeRays, Motion
 from .frame_report import FrameReport
 from .hit_map import HitArrays, HitMap
 from .inputs import FrameInputs
+from .last_picture import LastPicture
 from .metering import Exposure
 from .post import PostPass, keeps_stars
 from .programs import Programs, chosen
@@ -33,9 +33,6 @@ from .temperatures import TemperatureProfile
 from .turning import TurningPass, Turns, can_turn
 from .uniforms import stars_a_pixel
 
-if TYPE_CHECKING:
-    from .pixel_values import PixelValues
-
 
 class Renderer:
     """Draws scenes with one GL context.
@@ -45,6 +42,7 @@ class Renderer:
         hit_map: the last trace.
         transfer, coarse_transfer: what the media of the last picture add to each ray, drawn as exactly as the rest or at a resolution of their own.
         edges: the pixels of the last picture that have several rays.
+        last: what rays of the last picture meet.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
         exposure: what makes automatic exposure up.
         shadings: how many times a hit map has been shaded, for tests.
@@ -66,8 +64,8 @@ class Renderer:
         self._post = PostPass(ctx, self.programs)
         self._stars = StarLayer(ctx)
         self._turning, self._turns = TurningPass(ctx, self.programs, self._tables, self._temperatures), Turns()
+        self.last = LastPicture(self.hit_map, self._sample_map)
         self._last: FrameInputs | None = None  # without media that are marched apart
-        self._whole: FrameInputs | None = None  # the same with them
         self.shadings = 0
         self._marched = 0  # rays, by the end of the last frame
         self._turning_shown = False  # whether the last picture is of the pass of that name
@@ -122,13 +120,14 @@ class Renderer:
             into = target or self._own_picture(size).frame, viewport or (0, 0, *size)
             self._turning_shown = self._turning.draw(scene, planned, time, size, *into, shown)
         if self._turning_shown:
+            self.last.show(None)
             self._stamp(stamps, measure)
             made = self._report((0.0, 1e3 * (stamps[-1] - stamps[0]) if measure else 0.0, 0.0), False, planned, sharp=False, telling=False)
             return replace(made, traced=made.marched > 0, sharpened=False)
         inputs = FrameInputs.whole(planned, time, size, shown=shown)
         media = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
-        self._whole, rest = inputs, coarse_transfer.rest_of(inputs, media)
-        self._last = rest
+        self._last = rest = coarse_transfer.rest_of(inputs, media)
+        self.last.show(inputs, apart=rest is not inputs)
         traced = self._trace(rest, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
@@ -337,48 +336,6 @@ class Renderer:
     def hits(self) -> HitArrays:
         """The hit map of the last frame that was not filtered from light kept by direction."""
         return self.hit_map.read()
-
-    def values_at(self, place: tuple[float, float]) -> PixelValues | None:
-        """What the ray meets at `place` of the last frame, its width and height counted 0…1 from the bottom left; None where no pixel has a ray of its own."""
-        from . import pixel_values  # only for who asks: most pictures are drawn without
-
-        found = self._ray_at(place)
-        return None if found is None else pixel_values.of(*found)
-
-    def instance_at(self, place: tuple[float, float]) -> str | None:
-        """The key of the thing or medium that is met at `place`, such as ``things.moon``, empty where there is none; None and `place` as in `values_at`."""
-        found = self._ray_at(place)
-        return None if found is None else instance_numbers.picked(found[0].plan.scene, found[1].met)
-
-    def pixels_of(self, scene: Scene, path: str) -> np.ndarray | None:
-        """The pixels of the last frame, one of `scene`, whose rays meet the instance called `path`, bool (height, width), bottom row first; None where not
-        every pixel has a ray of its own, or no ray can meet it."""
-        number = instance_numbers.number_of(scene, path)
-        if number is None or self._turning_shown or not self.hit_map.textures or not self.hit_map.is_sharp:
-            return None
-        return self._where_apart(self._whole, number) if self._whole is not None and self._is_apart else self.hit_map.where_met(number)
-
-    @property
-    def _is_apart(self) -> bool:
-        """Whether the last frame's hit map knows nothing of its media."""
-        return self._last is not self._whole
-
-    def _where_apart(self, inputs: FrameInputs, number: instance_numbers.Number) -> np.ndarray:
-        """As `HitMap.where_met`, of every fourth ray: those of the map itself have not been asked for the media of `inputs`."""
-        width, height = inputs.size
-        self._sample_map.trace(FrameInputs.whole(inputs.plan, inputs.time, (-(-width // 4), -(-height // 4))))
-        return np.kron(self._sample_map.where_met(number), np.ones((4, 4), bool))[:height, :width]
-
-    def _ray_at(self, place: tuple[float, float]) -> tuple[FrameInputs, HitArrays, tuple[int, int]] | None:
-        if self._turning_shown or not self.hit_map.textures:
-            return None
-        pixel = math.floor(place[0] * self.hit_map.textures[0].width), math.floor(place[1] * self.hit_map.textures[0].height)
-        found = self.hit_map.at(pixel)
-        if found is None or self._whole is None or not self._is_apart:
-            return None if found is None else (*found, pixel)
-        self._sample_map.trace(replace(self._whole, size=(3, 3), offset=(pixel[0] - 1.0, pixel[1] - 1.0)))  # no power of two: docs/llvmpipe.md
-        one = self._sample_map.at((1, 1))
-        return None if one is None else (self._whole, one[1], pixel)
 
     def view_of(self, scene: Scene) -> views.View | None:
         """The diagnostic view that `scene` asks for, with the scale of the last frame; None for the picture itself."""

@@ -26,7 +26,7 @@ from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
 
-_TURNED = {"TURNED": 1}
+TURNED = {"TURNED": 1}
 
 
 class KnownLight:
@@ -125,7 +125,7 @@ class KnownLight:
 
     def stars(self, inputs: FrameInputs) -> tuple[Draw, Samplers]:
         """What draws its single stars over a view's picture; its samplers are still to be bound."""
-        stars, samplers = self._shade.stars(inputs, self._map, _TURNED)
+        stars, samplers = self._shade.stars(inputs, self._map, TURNED)
         stars.set(finer=inputs.finer)
         return stars, {**samplers, "radiance": self.light}
 

@@ -11,10 +11,12 @@ from blackhole_gl.planning import Plan, plan
 from blackhole_gl.rendering.diagnostics import most_accurate, prepared
 from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.rendering.kept_samples import MOST_SAMPLES
+from blackhole_gl.rendering.known_light import TURNED
 from blackhole_gl.rendering.post import TONE_TABLE
 from blackhole_gl.rendering.programs import Programs
 from blackhole_gl.rendering.reach import ALONE, FINER
 from blackhole_gl.rendering.refinement import FILLED
+from blackhole_gl.rendering.turning import can_turn
 from blackhole_gl.rendering.uniforms import stars_a_pixel
 from blackhole_gl.resources import presets_dir
 from blackhole_gl.scene import Scene, SceneError, catalogue, fields, presets
@@ -105,6 +107,10 @@ def _of_scenes() -> Iterator[Wanted]:
         yield from ((path, name, made, TONE_TABLE) for path in POST)
         yield from ((path, name, made, {}) for path in BEAM)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
+        if can_turn(made):
+            yield from ((path, name, made, {}) for path in ("turned.frag", "shifted.frag"))
+            if stars_a_pixel(scene):
+                yield "star_layer.frag", name, made, {**TURNED, **TONE_TABLE}
         if scene.post.show_sky_grid:
             yield from (("shade_overlays.frag", name, made, {"OVERLAY_SKY": 1, "HIT_MAP_REFINED": refined}) for refined in (0, 1))
 

@@ -89,9 +89,8 @@ def test_the_programs_are_all_that_the_shaders_hold(programs: Texts) -> None:
 def test_what_the_vertex_shader_hands_on_is_what_the_fragment_shader_takes(programs: Texts) -> None:
     """Each text is compiled alone above; this is what linking them would add."""
     for (vertex, fragment), name in programs.items():
-        given, taken = re.findall(r"^flat out (.*)$", vertex, re.M), re.findall(r"^flat in (.*)$", fragment, re.M)
+        given, taken = (re.findall(rf"^((?:flat |smooth |noperspective )?){way} (.*)$", text, re.M) for way, text in (("out", vertex), ("in", fragment)))
         assert given == taken, name
-        assert re.findall(r"^(?:smooth |noperspective )?in .*$", fragment, re.M) == [], name
 
 
 def test_whatever_a_program_runs_with_is_carried_to_it(programs: Texts) -> None:

@@ -83,7 +83,7 @@ def test_automatic_exposure_is_that_of_the_whole_picture(renderer: Renderer) -> 
 def test_a_few_lit_pixels_are_metered(renderer: Renderer, lit: int, monkeypatch: pytest.MonkeyPatch) -> None:
     values = np.zeros((metering.SIZE[1], metering.SIZE[0], 4), np.float16)
     values[0, :lit, :3] = 0.25
-    monkeypatch.setattr(metering.ShadePass, "draw", lambda self, inputs, hit_map, target: target.color_attachments[0].write(values.tobytes()))
+    monkeypatch.setattr(metering.ShadePass, "draw", lambda self, inputs, hit_map, target, media: target.color_attachments[0].write(values.tobytes()))
     meter = metering.Meter(renderer.ctx, renderer.programs, Tables(renderer.ctx), TemperatureProfile(renderer.ctx))
     stops = meter.stops(plan(presets.load(["kerr"], {"post.exposure_mode": "automatic"})))
     assert stops == pytest.approx(metering.ADAPTS * np.log2(0.255 / 0.25), abs=1e-3)

@@ -34,15 +34,15 @@ def test_a_pixel_shows_the_thing_whose_pixel_it_is(renderer: Renderer) -> None:
     made = scene()
     renderer.render(made, 0.0, SIZE)
     met = renderer.hits().met
-    masks = {name: renderer.pixels_of(made, f"things.{name}") for name in made.things}
+    masks = {name: renderer.last.pixels_of(made, f"things.{name}") for name in made.things}
     # The camera on the x axis has y to its right: the spheres' own places say which is which.
     columns = {name: np.nonzero(mask)[1] for name, mask in masks.items()}
     assert columns["left"].size > 20 and columns["left"].max() < SIZE[0] / 2 - 1 and columns["right"].size > 20 and columns["right"].min() > SIZE[0] / 2
     assert masks["ring"].sum() > 20
     assert np.array_equal(np.logical_or.reduce(list(masks.values())), (met[..., 0] >= 0).any(axis=-1))
     for y, x in np.argwhere(masks["left"] & ~masks["ring"])[::7]:
-        assert renderer.instance_at(((x + 0.5) / SIZE[0], (y + 0.5) / SIZE[1])) == "things.left"
-    assert renderer.instance_at((0.5, 0.02)) == ""
+        assert renderer.last.instance_at(((x + 0.5) / SIZE[0], (y + 0.5) / SIZE[1])) == "things.left"
+    assert renderer.last.instance_at((0.5, 0.02)) == ""
 
 
 def test_a_thing_in_a_cloud_is_picked_before_the_cloud() -> None:
@@ -54,6 +54,6 @@ def test_a_thing_in_a_cloud_is_picked_before_the_cloud() -> None:
 def test_nothing_is_told_of_a_map_that_is_not_whole(renderer: Renderer) -> None:
     made = presets.load(["kerr"], {"camera.azimuth_deg": 3.0, "rays.tolerance": 0.5})
     renderer.render(made, 0.0, SIZE, progressive=True)
-    assert not renderer.hit_map.is_sharp and renderer.instance_at((0.5, 0.5)) is None
+    assert not renderer.hit_map.is_sharp and renderer.last.instance_at((0.5, 0.5)) is None
     renderer.render(made, 0.0, SIZE)
-    assert renderer.instance_at((0.5, 0.5)) == ""
+    assert renderer.last.instance_at((0.5, 0.5)) == ""

@@ -49,7 +49,7 @@ def test_values_are_those_of_the_march(renderer: Renderer, name: str) -> None:
     )  # fmt: skip
     met = escaped = 0
     for k, (x, y) in enumerate(pixels):
-        found = renderer.values_at(((x + 0.3) / SIZE[0], (y + 0.7) / SIZE[1]))
+        found = renderer.last.values_at(((x + 0.3) / SIZE[0], (y + 0.7) / SIZE[1]))
         assert found.fate == march.fate[k]
         assert found.lam == pytest.approx(march.lambda_[k], rel=RELATIVE, abs=1e-9)
         if scene.hole.spin == 0.0:
@@ -88,7 +88,7 @@ def test_g_is_that_of_the_view(renderer: Renderer, formula: str) -> None:
     renderer.render(scene, 0.0, SIZE)
     scale = renderer.view_of(scene).scale
     shown = renderer.radiance()[::-1]
-    values = [(x, y, renderer.values_at(((x + 0.5) / SIZE[0], (y + 0.5) / SIZE[1]))) for x in range(4, SIZE[0], 6) for y in range(4, SIZE[1], 6)]
+    values = [(x, y, renderer.last.values_at(((x + 0.5) / SIZE[0], (y + 0.5) / SIZE[1]))) for x in range(4, SIZE[0], 6) for y in range(4, SIZE[1], 6)]
     on = [(x, y, found.disk.g) for x, y, found in values if found.disk is not None]
     entries = linear_light(scale.colours(1025))
     for x, y, g in on:
@@ -100,7 +100,7 @@ def test_g_is_that_of_the_view(renderer: Renderer, formula: str) -> None:
 def test_far_cameras_tell_screen_coordinates(renderer: Renderer) -> None:
     scene = scene_of("far")
     renderer.render(scene, 0.0, SIZE)
-    found = renderer.values_at((0.75, 0.25))
+    found = renderer.last.values_at((0.75, 0.25))
     x, y = (math.floor(0.75 * SIZE[0]) + 0.5, math.floor(0.25 * SIZE[1]) + 0.5)
     half = 0.5 * scene.camera.field_m
     assert found.screen == pytest.approx(((2.0 * x - SIZE[0]) * half / SIZE[1], (2.0 * y - SIZE[1]) * half / SIZE[1]))
@@ -110,12 +110,12 @@ def test_far_cameras_tell_screen_coordinates(renderer: Renderer) -> None:
 def test_there_are_none_beside_the_picture_nor_of_interpolated_pixels(renderer: Renderer) -> None:
     scene = scene_of("kerr")
     renderer.render(scene, 0.0, SIZE)
-    assert renderer.values_at((1.0, 0.5)) is None and renderer.values_at((0.5, -0.01)) is None
+    assert renderer.last.values_at((1.0, 0.5)) is None and renderer.last.values_at((0.5, -0.01)) is None
     renderer.render(scene.with_values({"camera.distance": 23.0}), 0.0, SIZE, progressive=True)
-    assert renderer.hit_map.is_sharp or renderer.values_at((0.5, 0.5)) is None
+    assert renderer.hit_map.is_sharp or renderer.last.values_at((0.5, 0.5)) is None
 
 
 def test_one_pixel_is_read_and_not_the_map(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     renderer.render(scene_of("kerr"), 0.0, SIZE)
     monkeypatch.setattr(renderer.hit_map, "read", lambda: pytest.fail("the whole map was read"))
-    assert renderer.values_at((0.1, 0.9)).fate == Fate.ESCAPED
+    assert renderer.last.values_at((0.1, 0.9)).fate == Fate.ESCAPED

@@ -94,7 +94,7 @@ def test_values_under_the_mouse_are_those_of_the_pixel(renderer: Renderer) -> No
     renderer.render(scene, 0.0, size)
     hits = renderer.hits()
     for x, y in ((47, 24), (50, 22), (10, 30), (95, 5)):
-        values = renderer.values_at(((x + 0.5) / size[0], (y + 0.5) / size[1]))
+        values = renderer.last.values_at(((x + 0.5) / size[0], (y + 0.5) / size[1]))
         assert values is not None and values.lam == pytest.approx(float(hits.lambda_[y, x]), abs=1e-3)
 
 

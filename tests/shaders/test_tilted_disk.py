@@ -96,7 +96,7 @@ def test_the_values_of_a_pixel_are_the_twin_s(renderer: Renderer, pixel: tuple[f
     scene = presets.load(["kerr", "reference"], {"disk.tilt_deg": 40.0, "disk.tilt_azimuth_deg": 70.0, "camera.azimuth_deg": 15.0})
     width, height = size = 72, 40
     renderer.render(scene, 0.0, size)
-    seen = renderer.values_at(pixel)
+    seen = renderer.last.values_at(pixel)
     assert seen is not None and seen.disk is not None
     x, y = (2.0 * (int(pixel[0] * width) + 0.5) - width) / height, (2.0 * (int(pixel[1] * height) + 0.5) - height) / height
     half = np.tan(np.radians(0.5 * scene.camera.fov_deg))
