@@ -166,8 +166,8 @@ def save(
     lengths: str = "r_s",
     linear: bool = False,
 ) -> Path:
-    """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` and ``.jpg`` the picture, ``.toml`` a preset, all of which `load` and the viewer
-    open again; ``.exr``, ``.fits`` and ``.npz`` linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay.
+    """Writes `scene` to `path`, by its suffix, and returns the path: ``.png`` and ``.jpg`` the picture, ``.toml`` a preset, ``.exr``, ``.fits`` and ``.npz``
+    linear radiance with layers of what each pixel's ray meets: fate, order, r, φ, g, delay. `load` and the viewer open all of them again.
 
     Args:
         lengths: unit of all lengths in a preset, ``r_s`` or ``M``; `load` reads both.

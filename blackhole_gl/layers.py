@@ -12,6 +12,7 @@ import numpy as np
 
 from . import listed_rays
 from .measure.visibilities import SkyPicture
+from .output.carried import SCENE
 from .output.files import write_whole
 from .physics import angular_size, projection
 from .planning import plan
@@ -21,7 +22,6 @@ from .shapes import Float, Int
 
 SUFFIXES = (".exr", ".fits", ".npz")
 _RAYS_AT_ONCE = 1 << 18
-_KEY = "blackhole_gl.scene"
 
 
 class LayersError(ValueError):
@@ -116,7 +116,7 @@ def _exr(layers: Layers, scene: Scene, text: str) -> bytes:
 
     channels: dict[str, Any] = {"RGB": np.ascontiguousarray(layers.radiance)}
     channels |= {f"{name}.V": values.astype(np.float32) for name, values in _beside(layers).items()}
-    header = {"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage, _KEY: text}
+    header = {"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage, SCENE: text}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "layers.exr"
         with openexr.File(header, channels) as made:

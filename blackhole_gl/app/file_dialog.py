@@ -10,7 +10,9 @@ from typing import Any
 
 from imgui_bundle import portable_file_dialogs as dialogs
 
-SCENES = ("Scenes and pictures", "*.toml *.png *.jpg *.jpeg")
+from ..scene import presets
+
+SCENES = ("Scenes, and pictures and films that carry one", " ".join(f"*{suffix}" for suffix in presets.FILES))
 TOML = ("Scenes", "*.toml")
 PICTURES = ("Pictures", "*.png")
 _PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # what shows the dialogs elsewhere than on Windows and macOS

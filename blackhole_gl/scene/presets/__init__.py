@@ -13,9 +13,9 @@ for each section of the scene::
     kind = "sphere"
 
 Presets are layered: physics, then look, then quality, or steps stated by hand instead, then single values; the later one wins. A picture saved by us is a
-preset too. Paths in a preset start at its own folder, and files elsewhere are left out unless the caller says `any_file`: presets and pictures are
-passed on. Whatever is wrong with one is a `PresetError` that names the file, the key, the value
-given and what is allowed; but a key that is not known, as a newer version's file may have, is left out, and `skipped` tells of it.
+preset too, and so are layers and a film. Paths in a preset start at its own folder, and files elsewhere are left out unless the caller says `any_file`:
+presets and pictures are passed on. Whatever is wrong with one is a `PresetError` that names the file, the key, the value given and what is allowed; but a
+key that is not known, as a newer version's file may have, is left out, and `skipped` tells of it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ...output import jpeg, png
+from ...output import carried, jpeg, png
 from ...resources import presets_dir, user_config_dir
 from ...text_files import decimal_comma, read_text
 from .. import Scene, fields, instances
@@ -41,9 +41,13 @@ __all__ = [
     "last_timed", "load", "parse", "parse_assignments", "picture_text", "read", "renamed", "save", "skipped", "user_presets_dir",
 ]
 
-_CARRIED = {".png": png.read_scene_text, **dict.fromkeys(jpeg.SUFFIXES, jpeg.read_scene_text)}
+_CARRIED = {
+    ".png": png.read_scene_text,
+    **dict.fromkeys(jpeg.SUFFIXES, jpeg.read_scene_text),
+    **dict.fromkeys(carried.READERS, carried.read_scene_text),
+}
 FILES = (".toml", *_CARRIED)
-"""How the names of files end that hold a preset: its text, and pictures that carry it."""
+"""How the names of files end that hold a preset: its text, and pictures, layers and films that carry it."""
 
 USER_GROUP = "user"
 DEFAULT_PRESETS = ("kerr",)
@@ -120,7 +124,7 @@ def load(
     Where nothing but looks, qualities and steps is named, they lie over `DEFAULT_PRESETS`.
 
     Args:
-        names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures saved by us (``.png``, ``.jpg``).
+        names_or_paths: names (see `available`) or paths of ``.toml`` presets or of pictures, layers and films saved by us (see `FILES`).
         overrides: dotted key → value, or text as typed on a command line, e.g. ``{"disk.outer_radius": "12"}``; lists as in TOML, paths from
             the working folder.
         any_file: the presets may name files outside their own folders, too.
@@ -217,7 +221,7 @@ def from_png(path: str | Path) -> Scene:
 
 
 def read(name_or_path: str | Path, *, any_file: bool = False) -> Preset:
-    """The preset of that name, or in that ``.toml`` file, or carried by that picture; `any_file`: it may name files outside its own folder.
+    """The preset of that name, or in that ``.toml`` file, or that such another of `FILES` carries; `any_file`: it may name files outside its own folder.
 
     Raises:
         PresetError: not found, not readable, not TOML, or a value that a scene cannot hold.
