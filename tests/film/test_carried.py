@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import blackhole_gl as bh
+from blackhole_gl import film, layers
 from blackhole_gl.output import carried
+from blackhole_gl.physics.flight import Flight
+from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 from blackhole_gl.scene.presets import PresetError
 
@@ -16,8 +20,9 @@ SCENE = bh.load("schwarzschild", {"camera.distance": 17.0, "disk.enabled": False
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".exr", ".fits"])
-def test_layers_open_again(suffix: str, tmp_path: Path) -> None:
-    path = bh.save(tmp_path / f"layers{suffix}", SCENE, (18, 10), time=3.5)
+def test_layers_open_again(suffix: str, renderer: Renderer, tmp_path: Path) -> None:
+    path = tmp_path / f"layers{suffix}"
+    layers.write(path, layers.measured(renderer, SCENE, 3.5, (18, 10)), SCENE, 3.5)
     assert bh.load(path) == SCENE == presets.load([str(path)])
     last = presets.last_timed([path])
     assert last is not None and last.time == 3.5
@@ -25,11 +30,6 @@ def test_layers_open_again(suffix: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("suffix", [".mp4", ".mov", ".mkv", ".webm"])
 def test_a_film_opens_as_the_scene_that_it_begins_with(suffix: str, tmp_path: Path) -> None:
-    from fractions import Fraction
-
-    from blackhole_gl import film
-    from blackhole_gl.physics.flight import Flight
-
     made = film.Film(Flight(SCENE, start=2.0), fps=Fraction(30), count=2, size=(32, 18), samples=1, shutter_deg=0.0)
     path = tmp_path / f"film{suffix}"
     with film.packing_of(made, path, film.codec_of(path, None)) as pack:
