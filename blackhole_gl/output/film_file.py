@@ -79,7 +79,7 @@ def packing(
             stream, numbers = _stream(container, size, fps, codec, available[codec_name]), count()
 
             def pack(pixels: np.ndarray) -> None:
-                picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709")
+                picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709", threads=1)
                 picture.pts, picture.time_base = next(numbers), 1 / fps
                 container.mux(stream.encode(picture))
 

@@ -96,9 +96,11 @@ def test_a_packed_film_has_every_frame_at_its_time(made: film.Film, drawn: Path,
 
 
 def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, drawn: Path, renderer: Renderer, tmp_path: Path) -> None:
-    """Stopped and gone on with, too: what is there comes from its files."""
+    """Stopped and gone on with, too: what is there comes from its files. Same are the pictures that the encoder is given: what it makes of the same
+    ones, in one process on one machine, has been seen to vary now and then."""
     film.encode(made, drawn, tmp_path / "after.mp4", "h264")
     folder, stopped = tmp_path / "frames", []
+    packed: list[np.ndarray] = []
     film.begin(made, folder)
 
     def stop(share: float) -> None:
@@ -110,16 +112,25 @@ def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, dr
         film.draw(made, folder, range(9), renderer, stop, pack)
     assert not list(tmp_path.glob("*while*")), "half a film is none"
     with film.packing_of(made, tmp_path / "while.mp4", "h264") as pack:
-        assert film.draw(made, folder, range(9), renderer, None, pack, stays=False) == 5
+
+        def keep_and_pack(pixels: np.ndarray) -> None:
+            packed.append(pixels.copy())
+            pack(pixels)
+
+        assert film.draw(made, folder, range(9), renderer, None, keep_and_pack, stays=False) == 5
     for number in range(9):  # the first four small, the others as they are
-        assert np.array_equal(png.read(film.frame_path(folder, number)), png.read(film.frame_path(drawn, number)))
+        same = png.read(film.frame_path(drawn, number))
+        assert np.array_equal(png.read(film.frame_path(folder, number)), same)
+        assert np.array_equal(packed[number], same)
         assert png.read_scene_text(film.frame_path(folder, number)) == png.read_scene_text(film.frame_path(drawn, number))
-    frames = []
+    assert len(packed) == 9
+    shown = []
     for name in ("after", "while"):
         with av.open(str(tmp_path / f"{name}.mp4")) as container:
-            frames.append([frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)])
-    assert len(frames[0]) == 9
-    np.testing.assert_array_equal(*frames)
+            shown.append(np.array([frame.to_ndarray(format="rgb24") for frame in container.decode(video=0)], int))
+    assert shown[0].shape == (9, SIZE[1], SIZE[0], 3)
+    # A quarter of what packing costs a picture of these (2.5 levels in the mean).
+    assert np.abs(shown[0] - shown[1]).mean(axis=(1, 2, 3)).max() < 0.6
 
 
 def test_a_shutter_gathers_light_from_the_frames_moment_on(made: film.Film, renderer: Renderer, tmp_path: Path) -> None:
