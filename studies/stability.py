@@ -23,7 +23,8 @@ from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.scene import Scene, catalogue, presets
 from blackhole_gl.scene.catalogue import PlugIn
 from blackhole_gl.scene.traits import RayModelTraits
-from studies.stability_cases import CASES, CHI, DEGREE, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case, shadow_edge
+from studies.stability_case import CHI, DEGREE, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case, shadow_edge
+from studies.stability_cases import CASES
 
 FINE, DEGRADED, FAILS, NOT_APPLICABLE = "fine", "degraded", "fails", "does not apply"
 UNRESOLVED, ESCAPED, CAPTURED = 0, 1, 2

@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.scene import catalogue
 from studies.stability import DEGRADED, FAILS, FINE, NOT_APPLICABLE, Judgement, is_default, methods, traits
-from studies.stability_cases import CASES, DEGREE, FLOOR, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case
+from studies.stability_case import DEGREE, FLOOR, HALF_PIXEL, SHADOW_FAILS, SHADOW_FINE, Case
+from studies.stability_cases import CASES
 from studies.stability_viewer import VIEWER_CASES
 
 Judgements = Mapping[tuple[str, str], Judgement]

@@ -13,7 +13,8 @@ from blackhole_gl.physics import observer, relativity
 from blackhole_gl.planning import make
 from blackhole_gl.rendering.frame import Renderer
 from studies import stability, stability_page
-from studies.stability_cases import CASES, Topic, impact
+from studies.stability_case import Topic, impact
+from studies.stability_cases import CASES
 from studies.stability_viewer import VIEWER_CASES
 from tests.sampled import sampled
 
