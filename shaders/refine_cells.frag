@@ -27,7 +27,11 @@ bool matters(uint crossing) {
 
 // What to make of a crossing of these kinds and senses; `trusted` falls where the cell cannot be interpolated.
 uint crossing_kind(uint crossing, uint senses, inout bool trusted, inout bool disk) {
+#if DISK_PLUNGING || DISK_TILTED
     bool turns = has_all(senses, NODE_OUTBOUND | NODE_INBOUND);
+#else
+    const bool turns = false; // of light from circular orbits about the hole's axis the constants of motion tell all
+#endif
     trusted = trusted && (!matters(crossing) || ((crossing & (NODE_MISSES | NODE_BENDS)) == 0u && !turns));
     disk = disk || has_all(crossing, NODE_BELOW_OUTER_EDGE | NODE_ABOVE_INNER_EDGE);
     return matters(crossing) ? CROSSING_SEEN : (crossing & NODE_CROSSES) != 0u ? CROSSING_UNSEEN : CROSSING_NONE;

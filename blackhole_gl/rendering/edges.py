@@ -202,19 +202,22 @@ class _Places:
         self.size = size
         self.squares = Squares.holding(np.empty((0, 2), int), 1, size)
         self._blocks = np.full((*size[::-1], 2), _NO_BLOCK, np.uint16)
+        self._words = self._blocks.view(np.uint32).ravel()  # the same, a number a pixel
         self.block_of_pixel = ctx.texture(size, 2, self._blocks.tobytes(), dtype="u2")
         self.block_of_pixel.filter = moderngl.NEAREST, moderngl.NEAREST
-        self._pixels = np.empty((0, 2), int)
+        self._held = np.empty(0, int)  # places in `_words` of those that have one
         self._frame: moderngl.Framebuffer | None = None
 
     def write(self, pixels: np.ndarray, blocks: np.ndarray) -> None:
         """The `pixels` have these `blocks`, each (N, 2), one at least, and no others have any."""
-        rows = np.concatenate([self._pixels[:, 1], pixels[:, 1]])
-        first, end = int(rows.min()), int(rows.max()) + 1
-        self._blocks[self._pixels[:, 1], self._pixels[:, 0]] = _NO_BLOCK
-        self._blocks[pixels[:, 1], pixels[:, 0]] = blocks
-        self._pixels, self.squares = pixels, Squares.holding(pixels, min(TOGETHER, *self.size), self.size)
-        self.block_of_pixel.write(self._blocks[first:end], (0, first, self.size[0], end - first))  # whole rows lie in one piece
+        places = pixels @ (1, self.size[0])
+        both = np.concatenate([self._held, places])
+        first, last = int(both.min()) // self.size[0], int(both.max()) // self.size[0]
+        self._words[self._held] = _NO_BLOCK << 16 | _NO_BLOCK
+        self._words[places] = blocks.astype(np.uint16).view(np.uint32).ravel()
+        self._held, self.squares = places, Squares.holding(pixels, min(TOGETHER, *self.size), self.size)
+        rows = self._blocks[first : last + 1]  # whole ones lie in one piece
+        self.block_of_pixel.write(rows, (0, first, self.size[0], len(rows)))
 
     def frame(self, target: Target) -> moderngl.Framebuffer:
         """Draws into `target`."""

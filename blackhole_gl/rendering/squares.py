@@ -42,9 +42,11 @@ class Squares:
     @classmethod
     def holding(cls, pixels: Int[np.ndarray, "pixels 2"], side: int, size: tuple[int, int]) -> Squares:
         """Those of a picture of `size` that hold any of `pixels`, column and row each."""
-        columns = -(-size[0] // side)
-        rows, column = np.divmod(np.flatnonzero(np.bincount(pixels[:, 1] // side * columns + pixels[:, 0] // side)), columns)
-        return cls.of(np.stack([column, rows], axis=-1), side, size)
+        columns, rows = -(-size[0] // side), -(-size[1] // side)
+        held = np.zeros(columns * rows, bool)
+        held[pixels // side @ (1, columns)] = True
+        row, column = np.divmod(np.flatnonzero(held), columns)
+        return cls.of(np.stack([column, row], axis=-1), side, size)
 
     @classmethod
     def picked(cls, cells: Bool[np.ndarray, "rows columns"], side: int, size: tuple[int, int]) -> Squares:

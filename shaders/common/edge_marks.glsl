@@ -4,9 +4,11 @@
 
 uniform bool disk_hides; // whether the direct picture hides the first ring's edges well enough
 
-// Where a crossing lies: 0 outside the disk's outer edge, or nowhere, 1 on the disk, 2 inside its inner edge. Between 0 and 2 lies a disk too thin to be met.
-int edge_zone(vec2 point) {
-    return on_disk(point) ? 1 : point != vec2(0.0) && dot(point, point) < disk_r_edge * disk_r_edge ? 2 : 0;
+// Where a crossing lies: 0 outside the disk's outer edge, 1 on the disk, 2 inside its inner edge. Between 0 and 2 lies a disk too thin to be met. One that is nowhere
+// is beyond all edges, where rays escape; where they end in the hole it is, too, as crossings run into that before there are none.
+int edge_zone(vec2 point, int fate) {
+    bool nowhere = point == vec2(0.0);
+    return on_disk(point) ? 1 : (nowhere ? fate == CAPTURED : dot(point, point) < disk_r_edge * disk_r_edge) ? 2 : 0;
 }
 
 #if IN_FIELD
@@ -24,7 +26,7 @@ vec2 edge_mark(Hits hits, ivec2 pixel) {
     seen |= enters_field(pixel) ? EDGE_IN_FIELD : 0;
 #endif
 #if ORDERS > 1
-    seen |= edge_zone(hits.crossing[1]) * EDGE_RING_1 | edge_zone(hits.crossing[2]) * EDGE_RING_2;
+    seen |= edge_zone(hits.crossing[1], hits.fate) * EDGE_RING_1 | edge_zone(hits.crossing[2], hits.fate) * EDGE_RING_2;
 #endif
 #if ORDERS > 0 && DISK_COMPOSITING_OPACITY
     seen |= disk_hides && on_disk(hits.crossing[0]) ? EDGE_VEILED : 0;

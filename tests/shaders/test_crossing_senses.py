@@ -55,9 +55,11 @@ def test_the_sense_is_the_sign_of_the_twins_momentum(renderer: Renderer, model: 
 
 
 @pytest.mark.parametrize("values", [{}, {"camera.inclination_deg": 30.0, "hole.spin": 0.9}, {"camera.distance": 4.0}, {"camera.distance": math.inf}])
-def test_interpolated_crossings_have_the_sense_of_traced_ones(renderer: Renderer, monkeypatch: pytest.MonkeyPatch, values: dict) -> None:
+@pytest.mark.parametrize("reads", [{"disk.plunging": True}, {"disk.tilt_deg": 20.0}])
+def test_interpolated_crossings_have_the_sense_of_traced_ones(renderer: Renderer, monkeypatch: pytest.MonkeyPatch, values: dict, reads: dict) -> None:
+    """In scenes whose matter shines by it: it falls, or its disk is tilted."""
     monkeypatch.setattr(choice, "refinement", lambda scene: None)
-    scene, size = presets.load([], values), (480, 270)
+    scene, size = presets.load([], {**values, **reads}), (480, 270)
     hits = []
     for progressive in (False, True):
         renderer.hit_map.forget()
@@ -69,3 +71,13 @@ def test_interpolated_crossings_have_the_sense_of_traced_ones(renderer: Renderer
     on_disk = (radius > 1.0) & (radius < scene.disk.outer_radius)
     assert np.sum(on_disk & exact.inbound) > 500 and np.sum(on_disk & ~exact.inbound) > 500
     assert np.mean((found.inbound != exact.inbound)[on_disk]) < 1e-4, "a turning point may lie just beside a cell"
+
+
+def test_turning_points_need_no_rays_of_their_own_where_nothing_shines_by_the_sense(renderer: Renderer) -> None:
+    """Across the disk light turns from coming in to going out where it is seen edge on: the light of circular orbits is the same on both sides."""
+    shares = []
+    for falls in (True, False):
+        renderer.hit_map.forget()
+        renderer.render(presets.load(["kerr"], {"hole.spin": 0.0, "rays.model": "schwarzschild", "disk.plunging": falls}), 0.0, (480, 270), progressive=True)
+        shares.append(renderer.hit_map.own_rays()[:, :120].mean())  # of the disk's side, away from the hole
+    assert shares[0] > 0.02 and shares[1] == 0.0, shares

@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from blackhole_gl.glsl.declared import Fate
 from blackhole_gl.physics.observer import look_rotation
 from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
@@ -139,6 +140,18 @@ def test_rings_are_finer_under_a_moving_camera_too(renderer: Renderer) -> None:
     assert edges.any()
     one, several = (np.abs(picture - fine)[edges].mean() for picture in pictures)
     assert several < 0.5 * one
+
+
+@pytest.mark.parametrize("values", [SCENES["schwarzschild"], {**SCENES["schwarzschild"], "camera.inclination_deg": 60.0}])
+def test_no_edge_lies_where_crossings_run_into_the_hole(renderer: Renderer, values: dict) -> None:
+    """Inside the shadow, where light that went further would have come through the disk's plane once more: nothing is to be seen on either side."""
+    renderer.render(presets.load(["kerr"], {**SMOOTH, **values}), 1.0, SIZE)
+    hits, edges = renderer.hits(), edges_of(renderer, SIZE)
+    captured = (hits.fate == int(Fate.CAPTURED))[::-1]
+    none = np.all(hits.crossing[::-1][..., 1:, :] == 0.0, axis=(-2, -1))
+    inside = captured & ~grown(~captured)
+    run_in = inside & grown(none & captured) & ~none
+    assert run_in.sum() > 20 and not np.any(edges & run_in)
 
 
 @pytest.mark.parametrize("name", SCENES)
