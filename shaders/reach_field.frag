@@ -18,7 +18,7 @@
 uniform int reach_steps, reach_stride;
 uniform float reach_step; // pixels from ray to ray
 
-out uint node;
+out uvec2 node;
 
 // Stands for the fate of a ray that passes the sphere by: at its rim the rays beside it break off.
 const int PASSED_BY = CAPTURED;

@@ -18,7 +18,7 @@
 uniform int reach_steps;
 uniform float reach_step; // pixels from ray to ray
 
-out uint node;
+out uvec2 node;
 
 const int PIECES = 4; // of a step that is no cubic in space
 

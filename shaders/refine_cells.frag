@@ -8,10 +8,11 @@
 #include "common/constants.glsl"
 #include "common/hit_cells.glsl"
 #include "common/node_kinds.glsl"
+#include "common/reach_node.glsl"
 
 uniform usampler2D kinds;
 #if MEETINGS
-uniform sampler2D reached; // more than 0 for each cell that may show a thing
+uniform sampler2D reached; // what each cell may show (common/reach_node.glsl)
 #endif
 #if CELLS_FILLED
 uniform sampler2D solid;   // 1 for each that one thing fills
@@ -62,7 +63,8 @@ void main() {
     vec2 from_hole = abs(float(REFINE_STEP) * gl_FragCoord.xy + picture_offset - picture_hole);
     trusted = trusted && max(from_hole.x, from_hole.y) > float(REFINE_STEP);
 #if MEETINGS
-    bool things = texelFetch(reached, ivec2(gl_FragCoord.xy), 0).r > 0.0;
+    float shown = texelFetch(reached, ivec2(gl_FragCoord.xy), 0).r;
+    bool things = shown > REACHED_NONE && !(trusted && is_near(shown));
 #else
     const bool things = false;
 #endif

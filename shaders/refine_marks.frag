@@ -11,7 +11,7 @@ void main() {
     bool fills = false;
     for (int k = 0; k < 16; ++k) {
         float cell = texelFetch(reached, clamp(first + ivec2(k % 4, k / 4), ivec2(0), last), 0).r;
-        fills = fills || cell > REACHED_NONE && cell < REACHED_ANY;
+        fills = fills || cell > REACHED_NONE && cell < REACHED_ANY && !is_near(cell);
     }
     gl_FragDepth = fills ? 0.0 : 1.0;
 }

@@ -37,6 +37,9 @@ _INNERMOST, _OUTERMOST = 1.02, 3.0
 # Ways in a field are held against balls in pieces as long as that, r_s, which are cubics.
 _PIECE = 1.2
 
+# What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough.
+_NOT_LINEAR, _BY_ITSELF = 0.3, 1.0
+
 FINER = {"REACH_FINER": 1}
 """The switch of the program that tells of cells what is first told of squares."""
 
@@ -86,7 +89,7 @@ class _Level:
         nodes = cells[0] + 1, cells[1] + 1
         depth = ctx.depth_texture(nodes)
         return cls(
-            nodes=Target.of(ctx, [_texture(ctx, nodes, "u4")], depth),
+            nodes=Target.of(ctx, [_texture(ctx, nodes, "u4", 2)], depth),
             cells=Target.of(ctx, [_texture(ctx, cells, "f1"), _texture(ctx, cells, "u4")]),
             depth=depth,
             marks=ctx.framebuffer([], depth),
@@ -122,13 +125,20 @@ class Reach:
         self._balls: moderngl.Texture | None = None
 
     def draw(
-        self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], numbers: Int[np.ndarray, " balls"], fills: Bool[np.ndarray, " balls"]
+        self,
+        inputs: FrameInputs,
+        balls: Float[np.ndarray, "balls 4"],
+        numbers: Int[np.ndarray, " balls"],
+        fills: Bool[np.ndarray, " balls"],
+        *,
+        exact: bool = False,
     ) -> Reached:
         """What each cell may show of `balls`, centre and radius each in r_s in the plan's frame.
 
         Args:
             numbers: 1 + kind + 32·index of what lies in each; 0 where that is no thing.
             fills: whether it fills the ball and hides what is behind.
+            exact: for squares that nothing else judges; else cells between whose rays directions are not to be interpolated may show what they are near, too.
         """
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", inputs, ALONE)
@@ -138,6 +148,7 @@ class Reach:
         own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
         table = {"reach_balls": self._table(few, own, filled)}
         nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
+        nodes.set(reach_not_linear=_BY_ITSELF if exact else _NOT_LINEAR)
         if inputs.plan.model.traits.field:
             nodes.set(reach_stride=_stride(inputs.plan))
         found: Sequence[moderngl.Texture] = ()
@@ -177,7 +188,7 @@ class Reach:
 
     def squares(self, inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"]) -> Squares:
         """Those cells, listed. Waits for the GPU."""
-        texture = self.draw(inputs, balls, np.zeros(len(balls), int), np.zeros(len(balls), bool)).cells
+        texture = self.draw(inputs, balls, np.zeros(len(balls), int), np.zeros(len(balls), bool), exact=True).cells
         found = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width)
         rows, columns = np.nonzero(found)
         return Squares.of(np.stack([columns, rows], axis=-1), REFINE_STEP, inputs.size)
@@ -218,8 +229,8 @@ def steps(height: int) -> list[int]:
     return found
 
 
-def _texture(ctx: moderngl.Context, size: tuple[int, int], dtype: str) -> moderngl.Texture:
-    texture = ctx.texture(size, 1, dtype=dtype, alignment=1)
+def _texture(ctx: moderngl.Context, size: tuple[int, int], dtype: str, components: int = 1) -> moderngl.Texture:
+    texture = ctx.texture(size, components, dtype=dtype, alignment=1)
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     texture.repeat_x = texture.repeat_y = False
     return texture

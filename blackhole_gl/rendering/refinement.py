@@ -93,7 +93,7 @@ class CoarseGrid:
 
         Args:
             rays: end on nothing but the hole.
-            reached: more than 0 for each cell that may show a thing; None in a scene without.
+            reached: what each cell may show, as shaders/reach_cells.frag leaves it; None in a scene without things.
             solid: 1 for each cell that one thing fills, which is written for its pixels; None where none is.
         """
         inputs = rays.inputs

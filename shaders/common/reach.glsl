@@ -4,12 +4,17 @@
 // they are there: the margin by which a ray may miss a ball. It is a difference between the fragments of a quad, so a ray takes steps as long as any of its quad,
 // if it has ended too. Rays end where they leave the shell between reach_radii, in which all balls lie: there neighbours end alike, whatever step it is in.
 //
+// That margin holds for each ray by itself. Four rays that all miss a ball by less tell as much where it is wider than they are apart: it can come between two of them by
+// no more than its edge bows there, and what is not linear between them. It is then near to none of them, and only the cell between them says whether that can be trusted
+// (refine_cells.frag).
+//
 // A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
 #include "common/reach_node.glsl"
 
 // A column each: centre in r_s, in the plan's frame, and radius, negative where a thing fills it; then 1 + kind + 32·index of what lies in it.
 uniform sampler2D reach_balls;
 uniform int reach_count;
+uniform float reach_not_linear; // of the margin, for what is not linear between four rays; 1 or more: each has the margin to itself
 uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second
 
 // How far a cubic may be from the way, of the piece's length, by the sum of the slopes at its ends: where it bends much, as far as the cubic bows.
@@ -54,6 +59,11 @@ Margin margin_about(float most) {
     return Margin(vec3(0.0), vec3(0.0), most, most);
 }
 
+// Square of the longer of the two ways to the next rays.
+float longest2(Margin margin) {
+    return max(dot(margin.right, margin.right), dot(margin.up, margin.up));
+}
+
 // By how much a ray between the four may be nearer to what lies in the direction of the unit vector `towards`: what lies across that leads away from a ball.
 float margin_towards(Margin margin, vec3 towards) {
     return margin.least + 0.5 * (abs(dot(margin.right, towards)) + abs(dot(margin.up, towards)));
@@ -72,13 +82,14 @@ vec3 slope_against(vec3 velocity, vec3 along) {
     return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
 }
 
-// The balls to which the way from a to b comes as near as the margin, which is `begin` at a and `end` at b. It bows from its chord by a cubic, which rates by any
-// parameter tell.
+// The balls to which the way from a to b comes as near as the margin, which is `begin` at a and `end` at b, and as near as four rays may that have it between them. It
+// bows from its chord by a cubic, which rates by any parameter tell: where it still comes nearer at the chord's nearest place, by as much more as such a bow can.
 Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     vec3 chord = b.x - a.x;
     float size = max(length(chord), 1e-20);
     vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
     float rough = size * roughness(length(before) + length(after));
+    vec2 sides2 = vec2(longest2(begin), longest2(end));
     Reached found = NONE_REACHED;
     for (int i = 0; i < reach_count; ++i) {
         vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
@@ -88,9 +99,16 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         vec3 away = arm - size * u * (along + (1.0 - u) * ((1.0 - u) * before - u * after));
         float part = min(u + radius / size, 1.0), far = length(away);
         vec3 towards = away / max(far, 1e-20);
-        float room = rough + mix(margin_towards(begin, towards), margin_towards(end, towards), part);
-        found.near |= far <= radius + room ? 1u << i : 0u;
-        found.hidden = far + rough + mix(begin.most, end.most, part) < -ball.w ? uint(i + 1) : found.hidden;
+        float most = mix(begin.most, end.most, part);
+        float room = mix(margin_towards(begin, towards), margin_towards(end, towards), part);
+        float edge_bow = 0.125 * mix(sides2.x, sides2.y, part) / max(radius, 1e-20);
+        float between = radius > most ? min(room, reach_not_linear * most + edge_bow) : room;
+        float slope = dot(along + (1.0 - u) * (1.0 - 3.0 * u) * before - u * (2.0 - 3.0 * u) * after, towards);
+        float nearing = u <= 0.0 ? max(slope, 0.0) : u >= 1.0 ? max(-slope, 0.0) : abs(slope);
+        float misses = far - radius - rough, nearer = nearing * min(0.5 * nearing * far, 0.25 * size);
+        found.near |= misses <= room ? 1u << i : 0u;
+        found.between |= misses - nearer <= between ? 1u << i : 0u;
+        found.hidden = far + rough + most < -ball.w ? uint(i + 1) : found.hidden;
     }
     return found;
 }

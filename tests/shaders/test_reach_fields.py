@@ -47,11 +47,22 @@ def test_a_shipped_scene_of_balls_is_interpolated_where_they_are_whole(renderer:
     assert not renderer.hit_map.is_sharp
     own = renderer.hit_map.own_rays()
     shown = ~own & (exact.met[..., 0, 0] >= 0)
-    assert own.mean() < 0.45 and shown.mean() > 0.2  # of a small picture; a quarter at 640×360
+    assert own.mean() < 0.3 and shown.mean() > 0.2  # of a small picture; half of that at 640×360
     assert np.count_nonzero(np.any(found.met != exact.met, axis=(-2, -1))) == 0
     moved = _displacement(exact, found)[shown]
     print(f"{name}: {own.mean():.2f} have rays of their own; displaced by {np.quantile(moved, 0.99):.3f} px at 99 %")
     assert np.quantile(moved, 0.99) <= scene.rays.tolerance
+
+
+# Views whose floor four rays miss by little: on ways that bow towards it between two steps, and where what lies between them is folded.
+BENT = {"objects_roessler": (102.94, 66.46, 12.9, 43.39), "objects_lorenz": (58.6, 68.96, 12.45, 73.23)}
+
+
+@pytest.mark.parametrize("name", BENT)
+def test_a_floor_that_four_rays_miss_is_seen_between_them(renderer: Renderer, name: str) -> None:
+    scene = presets.load([name], {**dict(zip(PLACES, BENT[name])), "rays.edges": 1})
+    exact, found = (_traced(renderer, scene, progressive=moving).met for moving in (False, True))
+    np.testing.assert_array_equal(found, exact)
 
 
 @pytest.mark.slow
