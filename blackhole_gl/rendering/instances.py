@@ -111,9 +111,9 @@ def _has_surface(kind: PlugIn) -> bool:
     return kind.slot == "thing" and kind.traits.surface
 
 
-def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
-    """Name → number: what tells the kinds of a scene apart in a hit, which are opaque, and whether any tells its distance."""
-    kinds = list(kinds)
+def switches(scene: Scene) -> dict[str, int]:
+    """Name → number: what tells the kinds of `scene` apart in a hit, which are opaque, whether any tells its distance, and which parts of media there are."""
+    kinds = used(scene)
     found = {"MEETINGS_BY_DISTANCE": int(any(kind.slot == "medium" or kind.traits.meets == "distance" for kind in kinds))}
     for number, kind in enumerate(kinds):
         name = f"{kind.slot}_{kind.key}".upper()
@@ -122,6 +122,8 @@ def switches(kinds: Iterable[PlugIn]) -> dict[str, int]:
             found[f"{name}_OPAQUE"] = int(kind.traits.opaque)
         else:
             found |= {f"{name}_BOLOMETRIC": int(kind.traits.bolometric), f"{name}_SOFT": int(kind.traits.soft)}
+            own = [one.values for one in scene.media.values() if one.kind == kind.key]
+            found |= {f"{name}_{part.upper()}": int(any(number_of(values[part]) > 0.0 for values in own)) for part in kind.traits.parts}
     return found
 
 

@@ -142,6 +142,8 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         for entry in ("reach", "centre", "increasing"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
         _refuse_disordered_defaults(traits.increasing, known, place)
+    if isinstance(traits, MediumTraits):
+        _refuse_unknown_numbers("parts", traits.parts, known, place)
     if isinstance(traits, MediumTraits) and traits.phenomenological:
         known = MappingProxyType({name: replace(item, art=True) for name, item in known.items()})
     path = file.relative_to(root).as_posix()

@@ -171,6 +171,7 @@ class MediumTraits(MetTraits):
         soft: whether next to nothing of it is left at its surface, so that no edge is seen there.
         phenomenological: whether it is made for its looks and solves no equations of matter; its parameters are then told as art.
         thickness: of a disk with depth, the parameter that is half its thickness; an instance's 0 stands for ``disk.thickness``. Empty for others.
+        parts: parameters what serves which is compiled only where an instance has one above 0: as the switch ``MEDIUM_<KIND>_<PARAMETER>``.
     """
 
     bolometric: bool = True
@@ -178,6 +179,7 @@ class MediumTraits(MetTraits):
     soft: bool = False
     phenomenological: bool = False
     thickness: str = ""
+    parts: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

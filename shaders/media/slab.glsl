@@ -5,6 +5,7 @@ source = "BlackHoleGPU (docs/sources.md): its volumetric disk, octave i of simpl
 slot = "medium"
 rank = 4
 changes = true
+parts = ["lanes"]
 reach = ["outer_radius", "height"]
 thickness = "height"
 increasing = ["inner_radius", "outer_radius"]
@@ -30,6 +31,7 @@ speed = { default = 0.7, range = [0.0, 5.0], unit = "×", help = "How fast the c
 
 const float MOST_LANES = 24.0;       // round the hole, at the inner edge
 const float GRAIN_FREQUENCY = 18.0;  // over that of the coarsest octave
+const float FINEST_KEPT = 0.8;       // of its features, in widths that are seen as one; those over 0.3 fade
 
 float medium_slab_distance(int i, vec3 x) {
     float out_from_axis = length(x.xy);
@@ -56,7 +58,7 @@ float slab_rate(float out_from_axis) {
 // What the clouds of a slab are; read once, as a parameter is a texel.
 struct Clouds {
     int octaves;
-    float contrast, first, grain, lanes;  // `first`: frequency of the coarsest octave
+    float contrast, first, grain;  // `first`: frequency of the coarsest octave
 };
 
 // Density of the lanes of one pattern of that age, mean 1; `share` is 0 on the inner edge, 1 on the outer one.
@@ -70,11 +72,13 @@ float slab_lanes(vec3 x, float share, float turned, float age, float width, floa
 float slab_clouds(Clouds clouds, vec3 x, float turned, float width, uint seed) {
     vec2 turn = cos_sin(-turned);
     vec3 onwards = vec3(rotate(x.xy, turn), x.z), forwards = onwards, backwards = vec3(rotate(x.xy, vec2(turn.x, -turn.y)), x.z);
-    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned)), octave = 1.0, octaves = float(clouds.octaves);
-    float rounds = octaves + (clouds.grain > 0.0 ? 1.0 : 0.0);  // the grain is one more: a branch of its own would run always (docs/llvmpipe.md)
+    float density = 1.0, wound = width * (1.0 + 1.5 * abs(turned)), octave = 1.0;
+    // Finer ones than are kept are their mean, 1: they are not looked up. The grain is one more round: a branch of its own would run always (docs/llvmpipe.md).
+    float octaves = min(float(clouds.octaves), floor(sqrt(FINEST_KEPT / max(clouds.first * wound, 1e-6))));
+    float rounds = octaves + (clouds.grain > 0.0 && clouds.first * GRAIN_FREQUENCY * wound < FINEST_KEPT ? 1.0 : 0.0);
     if (rounds > 0.0) do {
         bool grains = octave > octaves;
-        float frequency = clouds.first * (grains ? GRAIN_FREQUENCY : octave * octave), kept = clamp(1.6 - 2.0 * frequency * wound, 0.0, 1.0);
+        float frequency = clouds.first * (grains ? GRAIN_FREQUENCY : octave * octave), kept = clamp(2.0 * (FINEST_KEPT - frequency * wound), 0.0, 1.0);
         float contrast = grains ? 0.15 * clouds.grain : clouds.contrast;
         density *= max(1.0 + contrast * kept * solid_noise(frequency * (grains ? onwards : forwards), seed + (grains ? 13u : uint(octave))), 0.0);
         vec3 swapped = forwards;
@@ -88,17 +92,17 @@ float slab_clouds(Clouds clouds, vec3 x, float turned, float width, uint seed) {
 // Of clouds and lanes, mean 1.
 float medium_slab_pattern(int i, vec3 x, float footprint) {
     float out_from_axis = length(x.xy), inner = medium_slab_inner_radius(i);
-    Clouds shape = Clouds(medium_slab_octaves(i), medium_slab_contrast(i), medium_slab_frequency(i), medium_slab_grain(i), medium_slab_lanes(i));
+    Clouds shape = Clouds(medium_slab_octaves(i), medium_slab_contrast(i), medium_slab_frequency(i), medium_slab_grain(i));
     float width = max(footprint, 0.25 * plan_medium_step * medium_slab_scale(i, x));
     vec2 weights = shear_phase.zw * inversesqrt(dot(shear_phase.zw, shear_phase.zw));  // two patterns mixed: the contrast of one
     uvec2 seeds = uvec2(shear_seed.xy) * 16u;
     vec2 turned = medium_slab_speed(i) * slab_rate(out_from_axis) * shear_phase.xy;
     vec2 clouds = vec2(slab_clouds(shape, x, turned.x, width, seeds.x), slab_clouds(shape, x, turned.y, width, seeds.y));
-    if (shape.lanes > 0.0) {
-        float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
-        vec2 lanes = vec2(slab_lanes(x, share, turned.x, shear_phase.x, width, shear_seed.x), slab_lanes(x, share, turned.y, shear_phase.y, width, shear_seed.y));
-        clouds *= max(1.0 + shape.lanes * (lanes - 1.0), 0.0);
-    }
+#if MEDIUM_SLAB_LANES  // a branch would run always (docs/llvmpipe.md)
+    float share = (out_from_axis - inner) / max(medium_slab_outer_radius(i) - inner, 1e-4);
+    vec2 lanes = vec2(slab_lanes(x, share, turned.x, shear_phase.x, width, shear_seed.x), slab_lanes(x, share, turned.y, shear_phase.y, width, shear_seed.y));
+    clouds *= max(1.0 + medium_slab_lanes(i) * (lanes - 1.0), 0.0);
+#endif
     return max(1.0 + dot(weights, clouds - 1.0), 0.0);
 }
 

@@ -11,6 +11,7 @@ from blackhole_gl.physics import relativity
 from blackhole_gl.physics.observer import observe
 from blackhole_gl.physics.torus import Torus
 from blackhole_gl.reference import media, transfer
+from blackhole_gl.rendering import instances
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.recording import pixel_direction
 from blackhole_gl.scene import Scene, presets
@@ -251,3 +252,10 @@ def test_lanes_in_a_slab_change_its_picture_keep_its_light_and_are_nothing_at_0(
     changed = np.abs(laned[lit] / smooth[lit] - 1.0)
     assert np.quantile(changed, 0.9) > 0.1
     assert abs(laned.sum() / smooth.sum() - 1.0) < 0.1  # a few lanes are in the picture, and no whole number of them
+
+
+def test_lanes_are_compiled_only_where_a_slab_has_them() -> None:
+    """They took a sixth of a moving frame of a slab that has none."""
+    bare = presets.load(["kerr"], SLAB)
+    laned = bare.with_values({"media.other.kind": "slab", "media.other.lanes": 0.5})
+    assert [instances.switches(scene)["MEDIUM_SLAB_LANES"] for scene in (bare, laned)] == [0, 1]
