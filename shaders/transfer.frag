@@ -223,17 +223,18 @@ void main() {
             }
 #endif
 #endif
+            Passage piece = passage_of(loses, crossed * h);
             for (int n = 0; n <= ORDERS; ++n)
-                if (n == stretch) light[n] = after_piece(light[n], gains, loses, crossed * h);
+                if (n == stretch) light[n] = after_piece(light[n], piece, gains * (crossed * h));
+            left *= piece.passed;
 #if ORDERS > 0
-            if (crosses) {
-                stretch = min(stretch + 1, ORDERS);
-                meets_disk = meets_disk || is_near_disk(there.x);
-                for (int n = 0; n <= ORDERS; ++n)
-                    if (n == stretch) light[n] = after_piece(light[n], gains, loses, (1.0 - crossed) * h);
-            }
+            Passage beyond = passage_of(loses, (1.0 - crossed) * h);
+            stretch = crosses ? min(stretch + 1, ORDERS) : stretch;
+            meets_disk = meets_disk || crosses && is_near_disk(there.x);
+            for (int n = 0; n <= ORDERS; ++n)
+                if (crosses && n == stretch) light[n] = after_piece(light[n], beyond, gains * ((1.0 - crossed) * h));
+            left *= beyond.passed;
 #endif
-            left *= exp(-loses * h);
 #if SAMPLES
             bool parted = crossed < 1.0;
             vec4 sample_place = vec4(parted ? mix(here.x, there.x, 0.5 * crossed) : between.x, float(from_stretch)), gain = vec4(gains * h, 0.0), loss = vec4(loses * h, 0.0);

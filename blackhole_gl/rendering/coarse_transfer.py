@@ -25,6 +25,9 @@ MOVING, TURNING = 3, 2
 LONGER = 2.0
 """Steps in media that are marched coarse in every frame, over those that the scene asks for."""
 
+FINE, FINE_IN_MOTION = 1e-3, 0.05
+"""How exactly surfaces of media are found, of the length on which a medium changes."""
+
 LAGS = 0.25
 """Scene time in r_s/c by which a part of a moving pattern may stay behind the rest: a brush of light moves by less than a pixel in it."""
 
@@ -40,6 +43,7 @@ class MediaApart:
         inputs: the frame, with its media.
         step: pixels from ray to ray; 1: each has its own.
         footprint: pixels that what a ray sees is a mean of.
+        fine: how exactly surfaces are found, of a medium's scale.
         exact: whether they are drawn as exactly as the rest, for pictures that stay.
         rests: whether the next picture is by the same rays, of a sharp map, so that samples along them are worth telling.
         passes: whether the next picture is another moment of the same, so that the grid and what lies at edges may take turns.
@@ -49,6 +53,7 @@ class MediaApart:
     inputs: FrameInputs
     step: int
     footprint: float
+    fine: float
     passes: bool
     exact: bool = False
     rests: bool = False
@@ -69,12 +74,12 @@ def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> MediaApart | None:
     if not apart or plan.scene.post.view != "picture":
         return None
     if not (moving or passes and changes(plan)):
-        return MediaApart(inputs, 1, 1.0, passes=False, exact=True)
+        return MediaApart(inputs, 1, 1.0, FINE, passes=False, exact=True)
     rays = plan.scene.rays
     longer = 1.0 if can_keep(plan) and not moving else LONGER
     coarser = inputs.with_plan(replace(plan, scene=plan.scene.with_values({"rays.medium_step": min(longer * rays.medium_step, max(rays.medium_step, 1.0))})))
     step = MOVING if moving else TURNING
-    return MediaApart(coarser, step, float(step), passes=passes, rests=not moving)
+    return MediaApart(coarser, step, float(step), FINE_IN_MOTION if moving else FINE, passes=passes, rests=not moving)
 
 
 def rest_of(inputs: FrameInputs, media: MediaApart | None) -> FrameInputs:
@@ -168,7 +173,7 @@ class CoarseTransfer:
             if made.is_told:
                 return
             samples.begin(listed)
-        _prepare(march, asked.hit_map)
+        _prepare(march, asked)
         samples.march_on(march, asked.samplers, (-float(step), asked.media.footprint))
 
     def _due(self, rays: tuple, time: float, passes: bool) -> tuple[bool, bool]:
@@ -186,7 +191,7 @@ class CoarseTransfer:
         """Into all of `frame`, or that many rows of it; `spacing` as in shaders/transfer.frag."""
         self.marches += 1
         asked.march.sample({**asked.samplers, "ray_pixels": rays.pixels})
-        _prepare(asked.march, asked.hit_map)
+        _prepare(asked.march, asked)
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
         frame.use()
         asked.march.set(ray_spacing=spacing)
@@ -271,9 +276,9 @@ class _Asked:
     rays: tuple
 
 
-def _prepare(march: Draw, hit_map: HitMap) -> None:
-    march.set(meeting_reach=march.inputs.plan.reach)
-    hit_map.tell_blocks(march)
+def _prepare(march: Draw, asked: _Asked) -> None:
+    march.set(meeting_reach=march.inputs.plan.reach, fine_share=asked.media.fine)
+    asked.hit_map.tell_blocks(march)
 
 
 class _Made:

@@ -7,7 +7,11 @@ const float LEAST_PASSED = 1e-4;       // a pattern may leave gaps
 const float LEAST_PASSED = 1.0 / 512.0;
 #endif
 const float MOST_DEPTH = 0.5;          // of a piece, as its ends see it
-const float FINE_SHARE = 1e-3;         // of a medium's scale: how exactly its surface is found
+#if GRID
+uniform float fine_share;              // of a medium's scale: how exactly its surface is found
+#else
+const float fine_share = 1e-3;
+#endif
 const float HORIZON_MARGIN = 2e-5;     // of its radius: where rays end that fall in
 const float NEAR_HORIZON = 1.05, FREE_FALL = 0.1;  // and where they end farther out: in times of its radius, with nothing so near, in times of theirs. They turn without end
 
@@ -35,8 +39,8 @@ struct Here {
 void add_place(inout Here here, inout int bit, float off, float scale) {
     here.within ^= off < 0.0 ? bit : 0;
     here.edge = min(here.edge, abs(off));
-    here.fine = min(here.fine, FINE_SHARE * scale);
-    here.step = min(here.step, off < 0.0 ? plan_medium_step * scale : off + FINE_SHARE * scale);
+    here.fine = min(here.fine, fine_share * scale);
+    here.step = min(here.step, off < 0.0 ? plan_medium_step * scale : off + fine_share * scale);
     bit = bit >= (1 << 30) ? 1 : 2 * bit;
 }
 
@@ -94,12 +98,21 @@ Here here_at(Orbit orbit, State s, Sight first, vec3 end, vec3 left, const bool 
     return here;
 }
 
-// Light after `way` more, in the parameter of the march, through matter that gains and loses so much.
-Light after_piece(Light light, vec3 gains, vec3 loses, float way) {
-    vec3 depth = loses * way, share = (1.0 - exp(-depth)) / max(depth, vec3(1e-20));
+// Of a piece: the share of what it gains that gets out of it, and what comes through it.
+struct Passage {
+    vec3 share, passed;
+};
+
+// Of `way` long, in the parameter of the march, through matter that loses so much.
+Passage passage_of(vec3 loses, float way) {
+    vec3 depth = loses * way, passed = exp(-depth), share = (1.0 - passed) / max(depth, vec3(1e-20));
     vec3 series = 1.0 - depth * (0.5 - depth * (1.0 / 6.0 - depth * (1.0 / 24.0 - depth / 120.0)));
-    share = mix(share, series, lessThan(depth, vec3(0.2)));
-    return Light(light.gathered + light.passed * share * gains * way, light.passed * exp(-depth));
+    return Passage(mix(share, series, lessThan(depth, vec3(0.2))), passed);
+}
+
+// Light after it, where it gains so much.
+Light after_piece(Light light, Passage piece, vec3 gains) {
+    return Light(light.gathered + light.passed * piece.share * gains, light.passed * piece.passed);
 }
 
 void add_edged(inout int edged, inout int bit, const bool soft) {
@@ -117,7 +130,7 @@ int edged_media() {
 // Signed distance of the nearest medium, and how exactly surfaces there are to be found, r_s.
 vec2 room_at(vec3 x) {
     vec2 room = vec2(1e30);
-#each medium : for (int i = 0; i < medium_$key_count; ++i) room = min(room, vec2(medium_$key_distance(i, x), FINE_SHARE * (EDGED ? medium_$key_scale(i, x) : length(x))));
+#each medium : for (int i = 0; i < medium_$key_count; ++i) room = min(room, vec2(medium_$key_distance(i, x), fine_share * (EDGED ? medium_$key_scale(i, x) : length(x))));
     return room;
 }
 
