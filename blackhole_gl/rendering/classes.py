@@ -16,22 +16,29 @@ from .programs import Draw
 
 @dataclass(frozen=True)
 class Where:
-    """Those pixels whose depth compares with `depth`: ``>`` where it is nearer, ``<`` where it is farther away, ``1`` always."""
+    """Those pixels whose depth compares with `depth`: ``>`` where it is nearer, ``<`` where it is farther away, ``1`` always.
+
+    Attributes:
+        needed: how far away they are at most that need it; those farther away may be left out.
+    """
 
     comparison: str
     depth: float
+    needed: float = 1.0
 
     def holds(self, depths: np.ndarray) -> np.ndarray:
-        """Which pixels it is, by what the depth buffer holds of them; bool, of the same shape."""
-        return depths < self.depth if self.comparison == ">" else depths > self.depth if self.comparison == "<" else np.ones(depths.shape, bool)
+        """Which pixels need it, by what the depth buffer holds of them; bool, of the same shape."""
+        if self.comparison == "<":
+            return (depths > self.depth) & (depths < self.needed)
+        return depths < self.depth if self.comparison == ">" else np.ones(depths.shape, bool)
 
 
 MATTER = Where(">", PixelClass.MATTER.depth_beyond)
 BEYOND_MATTER = Where("<", PixelClass.MATTER.depth_beyond)
 """All but those of `MATTER`."""
 SKY = Where(">", PixelClass.SKY.depth_beyond)
-FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1)
-"""Those of things too: what is drawn for them has to come later."""
+FLAT_SKY = Where("<", PixelClass.FLAT_SKY.depth - 0.1, needed=PixelClass.FLAT_SKY.depth_beyond)
+"""Those of things may be drawn too: what is drawn for them has to come later."""
 THINGS = Where("<", PixelClass.FLAT_SKY.depth_beyond)
 OPEN_THINGS = Where("<", PixelClass.SOLID_THING.depth_beyond)
 """Those of `THINGS` that may be of the sky too."""

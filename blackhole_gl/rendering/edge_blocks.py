@@ -15,6 +15,8 @@ from .squares import TOGETHER, Squares
 # sides of blocks nor of the map are powers of two, for which llvmpipe would compile each program that reads it anew.
 _IN_A_ROW, _ROWS = 120, 2
 
+_MOST_OF_MAP = 0.75  # of its blocks, above which all are drawn, those that are nobody's too, in one draw
+
 
 @dataclass(frozen=True, eq=False)
 class EdgeBlocks:
@@ -79,7 +81,7 @@ class EdgeBlocks:
 
     def fresh(self, picked: Bool[np.ndarray, " pixels"], side: int, *, all_new: bool) -> FreshBlocks:
         """The blocks `picked` of a map of blocks of `side`² rays, which is `all_new`, with all of them picked, or holds the others already."""
-        if all_new and self.seeking.all():
+        if all_new and self.seeking.all() and len(self.pixels) > _MOST_OF_MAP * self.size[0] * self.size[1]:
             return FreshBlocks((), (), None)
         seeking, others = (self._squares(picked & kind, side) for kind in (self.seeking, ~self.seeking))
         changed = None if all_new else self._groups(_numbers_of(self.places[picked] // _together(side)), side)

@@ -60,7 +60,8 @@ def _glsl(kinds: tuple[PlugIn, ...]) -> str:
 
 
 def _fetch(name: str, place: int, row: str) -> str:
-    return f"texelFetch({name}_table, ivec2({place}, {row}), 0)"
+    """The nearest texel: docs/llvmpipe.md, texels."""
+    return f"textureLod({name}_table, (vec2({place}, {row}) + 0.5) / vec2(textureSize({name}_table, 0)), 0.0)"
 
 
 def _held_or(kind: PlugIn, fetched: list[str]) -> list[str]:

@@ -275,9 +275,10 @@ class Programs:
         for asked, known in self._asked:
             if asked is plan:
                 return known
-        groups = [(slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, *MET_SLOTS)]
-        groups += [(f"thing_by_{way}", [kind for kind in chosen(plan, "thing") if kind.traits.meets == way]) for way in ("distance", "crossing")]
-        groups.append(("thing_told_apart", [kind for kind in chosen(plan, "thing") if kind.traits.tells_apart]))
+        things = met.seen_kinds(plan.scene, "thing")
+        groups = [*((slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, "medium")), ("thing", things)]
+        groups += [(f"thing_by_{way}", [kind for kind in things if kind.traits.meets == way]) for way in ("distance", "crossing")]
+        groups.append(("thing_told_apart", [kind for kind in things if kind.traits.tells_apart]))
         groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
         paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
         found = _as_before(_Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS))))

@@ -191,15 +191,16 @@ class ShadePass:
         else:
             frame.use()
         where_flat = hit_map.switches_where_flat()
+        in_parts = inputs.plan.meetings > 0  # without things it is nearly everywhere
         if where_flat is not None:
-            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY)
+            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, self._boxes_of(hit_map, FLAT_SKY) if in_parts else None)
         sky = self._prepared_sky(inputs, hit_map, hit_map.switches())
         if squares is not None:
             self._draw_classes(sky, EVERYWHERE, squares=squares)
             return
-        self._draw_classes(sky, SKY)
-        if inputs.plan.meetings:
-            self._draw_classes(sky, OPEN_THINGS)
+        self._draw_classes(sky, SKY, self._boxes_of(hit_map, SKY) if in_parts else None)
+        if in_parts:
+            self._draw_classes(sky, OPEN_THINGS, self._boxes_of(hit_map, OPEN_THINGS))
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()

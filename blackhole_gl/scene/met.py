@@ -42,6 +42,18 @@ def _used(lot: Instances) -> frozenset[str]:
     return frozenset(instance.kind for instance in lot.values())
 
 
+def seen_kinds(scene: Scene, slot: str) -> list[PlugIn]:
+    """Those of `kinds` of which any instance may be met: of a lamp that has no size nothing is. All of them, where that would be none."""
+    all_kinds = kinds(scene, slot)
+    return [kind for kind in all_kinds if kind.key in _with_size(named(scene, slot), tuple(all_kinds))] or all_kinds
+
+
+@lru_cache(maxsize=SCENES_KEPT)
+def _with_size(lot: Instances, used: tuple[PlugIn, ...]) -> frozenset[str]:
+    traits = {kind.key: kind.traits for kind in used}
+    return frozenset(one.kind for one in lot.values() if not traits[one.kind].reach or extent(one, traits[one.kind]) > 0.0)
+
+
 def is_empty(scene: Scene) -> bool:
     """Whether there is nothing to meet but the disk."""
     return not scene.things and not scene.media

@@ -28,8 +28,9 @@ void know_balls(vec2 place, bool is_corner) {
 KnownBall next_ball(inout uint left) {
     uint rest = left & (left - 1u);
     int number = int(floatBitsToUint(float(left ^ rest)) >> 23) - 127;  // the exponent of a power of two
-    vec4 ball = texelFetch(reach_balls, ivec2(number, 0), 0);
-    int of = int(texelFetch(reach_balls, ivec2(number, 1), 0).x + 0.5) - 1;
+    float column = (float(number) + 0.5) / float(textureSize(reach_balls, 0).x);  // the nearest texel: docs/llvmpipe.md, texels
+    vec4 ball = textureLod(reach_balls, vec2(column, 0.25), 0.0);
+    int of = int(textureLod(reach_balls, vec2(column, 0.75), 0.0).x + 0.5) - 1;
     left = rest;
     return KnownBall(ball.xyz, abs(ball.w), of & 31, of >> 5);
 }

@@ -92,7 +92,7 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     vec2 sides2 = vec2(longest2(begin), longest2(end));
     Reached found = NONE_REACHED;
     for (int i = 0; i < reach_count; ++i) {
-        vec4 ball = texelFetch(reach_balls, ivec2(i, 0), 0);
+        vec4 ball = textureLod(reach_balls, vec2((float(i) + 0.5) / float(textureSize(reach_balls, 0).x), 0.25), 0.0);
         float radius = abs(ball.w);
         vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);

@@ -46,7 +46,8 @@ vec3 painted_colour(Finish finish, Painted painted) {
 vec3 lamp_light(Finish finish, vec3 colour, Sight sight, vec3 normal) {
     vec3 light = finish.ambient * colour;
     for (int i = 0; i < lamp_count; ++i) {
-        vec4 lamp = texelFetch(lamps_table, ivec2(0, i), 0);
+        float row = (float(i) + 0.5) / float(lamp_count);
+        vec4 lamp = textureLod(lamps_table, vec2(0.25, row), 0.0);  // the nearest: docs/llvmpipe.md, texels
         vec3 way = lamp.xyz - sight.place;
         float far = length(way);
         vec3 to_lamp = way / max(far, 1e-6);
@@ -54,7 +55,7 @@ vec3 lamp_light(Finish finish, vec3 colour, Sight sight, vec3 normal) {
         float highlight = pow(max(dot(normal, normalize(to_lamp + sight.towards)), 1e-6), finish.shininess);
         float thinned = lamp.w > 0.0 ? lamp.w * lamp.w / max(far * far, 1e-6) : 1.0;
         vec3 sent = (1.0 - finish.ambient) * colour * facing + (facing > 0.0 ? finish.specular * highlight : 0.0);
-        light += sent * thinned * texelFetch(lamps_table, ivec2(1, i), 0).rgb;
+        light += sent * thinned * textureLod(lamps_table, vec2(0.75, row), 0.0).rgb;
     }
     return light;
 }

@@ -285,6 +285,13 @@ def test_small_blocks_are_drawn_four_at_a_time_where_they_lie_together() -> None
     assert not any(len(some) for some in blocks.fresh(picked & False, 2, all_new=False).seeking)
 
 
+def test_a_map_of_few_blocks_is_not_traced_whole() -> None:
+    """A picture with forty pixels at edges had 720 blocks of rays."""
+    pixels = np.stack(np.divmod(np.arange(700), 64)[::-1], axis=-1)
+    few, most = (_edge_blocks(pixels[:count]).fresh(np.ones(count, bool), 2, all_new=True) for count in (40, 700))
+    assert most.whole and not few.whole and few.changed is None and sum(len(some) for some in few.seeking) == 10 and not any(map(len, few.others))
+
+
 def test_many_balls_are_gathered_into_few_that_hold_them() -> None:
     rng = np.random.default_rng(1)
     balls = np.column_stack([rng.normal(0.0, 8.0, (1000, 3)), rng.uniform(0.01, 0.5, 1000)])

@@ -13,7 +13,8 @@ from blackhole_gl.physics import motion, moving_matter
 from blackhole_gl.physics.observer import observe
 from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
-from blackhole_gl.scene import Scene, SceneError, presets
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.scene import Scene, SceneError, met, presets
 
 
 def _scene(*names: str, **values: object) -> Scene:
@@ -100,6 +101,18 @@ def test_lamps_light_a_ball_as_blinn_and_phong_say(renderer: Renderer) -> None:
     expected = _lit(place, np.array([3.0, 1.0, 4.0]), towards, lamps, **finish)
     assert expected.max() > 1.0, "there is a highlight"
     np.testing.assert_allclose(renderer.radiance()[::-1][met], expected, rtol=3e-3, atol=1e-3)
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.2])
+def test_rays_and_pixels_look_for_lamps_that_have_a_size_alone(renderer: Renderer, radius: float) -> None:
+    """Every branch runs for every pixel: a kind of which nothing can be met took a tenth of the shading and of the rays."""
+    lamp = {"things.lamp.kind": "lamp", "things.lamp.radius": radius, "things.lamp.z": 9.0}
+    scene = presets.load(["kerr"], {"things.ball.kind": "sphere", **lamp})
+    draws = [renderer.programs.get(path, FrameInputs.whole(plan(scene), 0.0, (60, 34))) for path in ("trace.frag", "shade_matter.frag")]
+    assert all(draw.takes("thing_sphere_table") for draw in draws)
+    assert all(draw.takes("thing_lamp_table") == (radius > 0.0) for draw in draws)
+    alone = presets.load(["kerr"], lamp)
+    assert met.seen_kinds(alone, "thing") == met.kinds(alone, "thing"), "a program has one kind at least"
 
 
 def test_squares_too_small_for_a_pixel_are_their_mean(renderer: Renderer) -> None:
