@@ -267,7 +267,7 @@ void main() {
     momentum = vec4(onward.w_rate, onward.n_rate);
 #else
     gathered0 = vec4(light[0].gathered, float(pieces));
-    dimmed0 = vec4(1.0 - light[0].passed, float(hits.fate + 8 * (min(surfaces, 31) + 32 * (stretch + 4 * int(meets_disk)))));  // the ray's history, for transfer_marks.frag
+    dimmed0 = vec4(1.0 - light[0].passed, float(hits.fate + 8 * (min(surfaces, 31) + 32 * (stretch + 4 * int(meets_disk)))));  // the ray's history, for transfer_cells.frag
 #if ORDERS > 0
     gathered1 = vec4(light[1].gathered, 1.0);
     dimmed1 = vec4(1.0 - light[1].passed, 1.0);

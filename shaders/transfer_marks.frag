@@ -1,42 +1,19 @@
 #version 330 core
-// What rays of a coarse grid have gone through → depth: which pixels lie between rays with one and the same history (fate, surfaces of media, crossings of the disk's
-// plane; where none of these is near the disk it makes no difference how many there are), and the same fate themselves. Between those what media add may be interpolated, and is nothing where none of the four met any; the others are marched by themselves,
-// so that no edge has a halo.
+// Cells of a coarse grid of rays (transfer_cells.frag) → depth: which pixels lie between rays with one and the same history, and have their fate themselves. Between those what media add may be
+// interpolated, and is nothing where none of the four met any; the others are marched by themselves, so that no edge has a halo.
 #defines
 #blocks
 #include "common/constants.glsl"
 #include "common/hits.glsl"
 #include "common/hit_map_read.glsl"
 
-uniform sampler2D gathered0, dimmed0;  // of the grid; alpha: the pieces of the ray that lie in media, and its history
-uniform float spacing;                 // pixels from ray to ray
+uniform sampler2D media_cells;
+uniform vec2 pixel_to_cell;  // from a pixel's column and row to the place of its cell, in both directions
 
-// What a surface, a crossing of the disk's plane and one near the disk add to a history; below that is its fate.
-const float ONE_SURFACE = 8.0, ONE_CROSSING = 256.0, NEAR_DISK = 1024.0;
-
-// As a way through a medium grows from nothing, light that only surfaces part goes from ray to ray without a jump, but with a bend. How much the four may differ there: in light as exposed, and in
-// the share that they take; interpolated light is off by a quarter of that at most.
-const float LEAST_SEEN = 0.02, LEAST_TAKEN = 0.15;
-
-vec4 texel(sampler2D grid, ivec2 ray) {
-    return texelFetch(grid, min(ray, textureSize(grid, 0) - 1), 0);
-}
-
-float spread(vec3 a, vec3 b, vec3 c, vec3 d) {
-    vec3 most = max(max(a, b), max(c, d)) - min(min(a, b), min(c, d));
-    return max(max(most.x, most.y), most.z);
-}
+const float SEEN = 8.0;
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy), ray = ivec2((vec2(pixel) + 0.25) / spacing);
-    vec4 gains0 = texel(gathered0, ray), gains1 = texel(gathered0, ray + ivec2(1, 0)), gains2 = texel(gathered0, ray + ivec2(0, 1)), gains3 = texel(gathered0, ray + 1);
-    vec4 takes0 = texel(dimmed0, ray), takes1 = texel(dimmed0, ray + ivec2(1, 0)), takes2 = texel(dimmed0, ray + ivec2(0, 1)), takes3 = texel(dimmed0, ray + 1);
-    vec4 four = vec4(takes0.a, takes1.a, takes2.a, takes3.a);
-#if ORDERS == 0  // all light is that of one stretch
-    bool close = exp2(post_exposure) * spread(gains0.rgb, gains1.rgb, gains2.rgb, gains3.rgb) < LEAST_SEEN && spread(takes0.rgb, takes1.rgb, takes2.rgb, takes3.rgb) < LEAST_TAKEN;
-    four = close ? mod(four, vec4(ONE_SURFACE)) : four;
-#endif
-    four = mod(four, vec4(all(lessThan(four, vec4(NEAR_DISK))) ? ONE_CROSSING : NEAR_DISK));
-    bool alike = four.yzw == four.xxx && mod(four.x, ONE_SURFACE) == float(fetch_escape(pixel).fate);
-    gl_FragDepth = !alike ? 0.25 : gains0.a + gains1.a + gains2.a + gains3.a > 0.0 ? 0.75 : 0.5;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float cell = textureLod(media_cells, (vec2(pixel) + 0.25) * pixel_to_cell, 0.0).r, fate = float(fetch_escape(pixel).fate);
+    gl_FragDepth = cell == fate ? 0.5 : cell == fate + SEEN ? 0.75 : 0.25;
 }

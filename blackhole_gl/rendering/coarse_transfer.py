@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -10,6 +10,7 @@ import numpy as np
 
 from ..planning import plan as make_plan
 from ..scene import FrozenMap
+from .boxes import Box, bands_of
 from .classes import EVERYWHERE, Where, drawn
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -33,6 +34,8 @@ LAGS = 0.25
 
 # By shaders/transfer_marks.frag.
 _OWN, _BETWEEN = Where(">", 0.375), Where("<", 0.625)
+
+_SQUARE, _BAND = 16, 2  # pixels along the sides of squares, and rows of these, that what media are drawn in is kept to
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ def rest_of(inputs: FrameInputs, media: MediaApart | None) -> FrameInputs:
 
 
 class CoarseTransfer:
-    """Draws shaders/transfer.frag for a grid of rays, and what lies between them by shaders/transfer_marks.frag and transfer_join.frag.
+    """Draws shaders/transfer.frag for a grid of rays, and what lies between them by shaders/transfer_cells.frag, transfer_marks.frag and transfer_join.frag.
 
     Attributes:
         marches: how many times it has drawn, for tests.
@@ -148,7 +151,7 @@ class CoarseTransfer:
             return
         listed = made.listed(self._ctx, made.own)
         self._march(asked, listed.frame, (-1.0, asked.media.footprint), made.own, made.own.rows)
-        self._spread(asked.media, made.own, listed, made.whole, _OWN)
+        self._spread(asked.media, made.own, listed, made.whole, _OWN, made.bands.get(_OWN))
 
     def _sum(self, asked: _Asked, made: _Made, samples: KeptSamples, target: Target, where: Where) -> None:
         """What `samples` show at the frame's time, into `target`."""
@@ -157,7 +160,7 @@ class CoarseTransfer:
         draw = self._summing(asked)
         draw.sample({**asked.samplers, **samples.samplers})
         samples.sum(draw, listed.frame, asked.media.footprint)
-        self._spread(asked.media, samples.list, listed, target, where)
+        self._spread(asked.media, samples.list, listed, target, where, made.bands.get(where))
 
     def _summing(self, asked: _Asked) -> Draw:
         return self._programs.get("transfer_samples.frag", asked.media.inputs, {"MOST_SAMPLES": MOST_SAMPLES})
@@ -204,6 +207,11 @@ class CoarseTransfer:
         """What shaders/common/stretches.glsl reads, by name."""
         return {} if self._made is None else _named(self._made.whole)
 
+    @property
+    def shown(self) -> Sequence[Box] | None:
+        """Parts of the picture, none over another, that hold all pixels in which media may be seen; None where that is not known."""
+        return None if self._made is None else self._made.shown
+
     def release(self) -> None:
         """Gives the GL objects back."""
         if self._made is not None:
@@ -211,16 +219,20 @@ class CoarseTransfer:
         self._made = self._last = self._marked = None
 
     def _mark(self, asked: _Asked, made: _Made) -> None:
+        cells = self._programs.get("transfer_cells.frag", asked.media.inputs)
+        cells.sample(_named(made.grid))
+        made.cells.frame.use()
+        self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
+        cells.draw()
         marks = self._programs.get("transfer_marks.frag", asked.media.inputs, asked.hit_map.switches())
-        marks.sample({**asked.hit_map.samplers(), **_named(made.grid)})
-        marks.set(spacing=float(asked.media.step))
+        marks.sample({**asked.hit_map.samplers(), "media_cells": made.cells.texture})
+        marks.set(pixel_to_cell=tuple(1.0 / (asked.media.step * side) for side in made.cells.size))
         made.marks.use()
         with drawn(self._ctx, marks, EVERYWHERE):
             marks.draw()
         depth = np.frombuffer(made.depth.read(), np.float32).reshape(made.depth.height, made.depth.width)
-        made.own.hold(in_blocks(depth < _OWN.depth))
-        made.whole.frame.depth_mask = False
-        made.whole.frame.clear()
+        made.clear()
+        made.note(depth)
 
     def _join(self, media: MediaApart, made: _Made, where: Where) -> None:
         join = self._programs.get("transfer_join.frag", media.inputs)
@@ -228,19 +240,23 @@ class CoarseTransfer:
         factors = [1.0 / (media.step * side) for side in made.grid.size]
         offsets = [0.0 if media.apart else 0.5 / side - 0.5 * factor for side, factor in zip(made.grid.size, factors)]
         join.set(pixels_to_grid=(*factors, *offsets))
-        self._fill(join, made.whole, where)
+        self._fill(join, made.whole, where, made.bands.get(where))
 
-    def _spread(self, media: MediaApart, rays: RayList, listed: Target, target: Target, where: Where) -> None:
+    def _spread(self, media: MediaApart, rays: RayList, listed: Target, target: Target, where: Where, bands: Sequence[Box] | None) -> None:
         """What the rays of a list show, into their own pixels of `target`."""
         spread = self._programs.get("transfer_join.frag", media.inputs, {"LISTED": 1})
         spread.sample({**_named(listed), "places": rays.places})
-        self._fill(spread, target, where)
+        self._fill(spread, target, where, bands)
 
-    def _fill(self, draw: Draw, target: Target, where: Where) -> None:
+    def _fill(self, draw: Draw, target: Target, where: Where, bands: Sequence[Box] | None) -> None:
+        """In `bands` alone, where they are known."""
         target.frame.use()
         target.frame.depth_mask = False
         with drawn(self._ctx, draw, where):
-            draw.draw()
+            if bands is None:
+                draw.draw()
+            else:
+                draw.draw_boxes(bands)
 
     def _targets(self, size: tuple[int, int], count: int, step: int, *, apart: bool) -> _Made:
         if self._made is None or self._made.made_for != (size, count, step, apart):
@@ -289,6 +305,10 @@ class _Made:
         grid: `whole` itself where each pixel has a ray.
         marks: draws into `depth`.
         depth: of `whole`: which pixels are marched by themselves.
+        cells: of the grid, as shaders/transfer_cells.frag tells them.
+        bands: parts of the picture, none over another, that hold all pixels between rays that meet media, and all marched by themselves; empty where rays lie
+            apart.
+        shown: the same of both, None where rays lie apart.
         own: those pixels.
         samples, own_samples: those of the grid's rays and of `own`.
     """
@@ -307,8 +327,27 @@ class _Made:
         self.marks = ctx.framebuffer([], self.depth)
         self.own = RayList(ctx, (1, 1) if apart else size)
         self.samples, self.own_samples = KeptSamples(ctx, coarse), KeptSamples(ctx, (1, 1) if apart else size)
+        self.cells = Target.of(ctx, [ctx.texture(self.grid.size, 1, dtype="f4")])
+        self.cells.texture.filter = moderngl.NEAREST, moderngl.NEAREST
+        self.bands: dict[Where, Sequence[Box]] = {}
+        self.shown: Sequence[Box] | None = None
         self._dear = False  # too many samples to be kept
         self._listed: Target | None = None
+
+    def clear(self) -> None:
+        """Empties the picture of what it was filled with by the last bands."""
+        self.whole.frame.depth_mask = False
+        if self.shown is None:
+            self.whole.frame.clear()
+        for box in self.shown or ():
+            self.whole.frame.clear(viewport=box)
+
+    def note(self, depth: np.ndarray) -> None:
+        """Takes in what shaders/transfer_marks.frag has found, float32 (height, width)."""
+        self.own.hold(in_blocks(_OWN.holds(depth)))
+        own, between = _squares(_OWN.holds(depth)), _squares(_BETWEEN.holds(depth))
+        self.bands = {where: list(bands_of(held, self.whole.size, _SQUARE, _BAND)) for where, held in ((_OWN, own), (_BETWEEN, between))}
+        self.shown = list(bands_of(own | between, self.whole.size, _SQUARE, _BAND))
 
     @property
     def is_told(self) -> bool:
@@ -343,11 +382,17 @@ class _Made:
         return self._listed
 
     def release(self) -> None:
-        for item in (self.whole, self.marks, self.depth, self.own, self._listed, self.samples, self.own_samples):
+        for item in (self.whole, self.cells, self.marks, self.depth, self.own, self._listed, self.samples, self.own_samples):
             if item is not None:
                 item.release()
         if self.grid is not self.whole:
             self.grid.release()
+
+
+def _squares(held: np.ndarray) -> np.ndarray:
+    """Which squares hold any of the pixels `held`, bool (rows, columns)."""
+    rows, columns = (np.arange(0, side, _SQUARE) for side in held.shape)
+    return np.logical_or.reduceat(np.logical_or.reduceat(held, rows, axis=0), columns, axis=1)
 
 
 def _texture(ctx: moderngl.Context, size: tuple[int, ...], dtype: str = "f2") -> moderngl.Texture:

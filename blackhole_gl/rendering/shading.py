@@ -93,7 +93,7 @@ class ShadePass:
         if inputs.plan.shows_disk:
             self._draw_matter(inputs, hit_map, MATTER, *((_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)))
         if apart:
-            self._draw_media(inputs, hit_map)
+            self._draw_media(inputs, hit_map, None if media is None or media.exact else self.coarse_transfer.shown)
         if inputs.plan.meetings:
             self._draw_matter(inputs, hit_map, THINGS, {}, _SECOND_OUTPUT)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
@@ -131,10 +131,10 @@ class ShadePass:
         matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
         self._draw_classes(matter, where, self._boxes_of(hit_map, where))
 
-    def _draw_media(self, inputs: FrameInputs, hit_map: HitMap) -> None:
-        """The media where no disk is seen, before all else."""
+    def _draw_media(self, inputs: FrameInputs, hit_map: HitMap, shown: Sequence[Box] | None) -> None:
+        """The media where no disk is seen, before all else: in what is `shown` of them alone, where that is known."""
         self._ctx.blend_func = moderngl.ONE, _SECOND_OUTPUT, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
-        self._draw_classes(self._prepared("shade_media.frag", inputs, hit_map, hit_map.switches()), BEYOND_MATTER if inputs.plan.orders else EVERYWHERE)
+        self._draw_classes(self._prepared("shade_media.frag", inputs, hit_map, hit_map.switches()), BEYOND_MATTER if inputs.plan.orders else EVERYWHERE, shown)
 
     def march_apart(self, inputs: FrameInputs, media: MediaApart, hit_map: HitMap) -> bool:
         """Marches some of the rays of exact `media`, which are not in `inputs`, before `draw` needs them all. Returns whether none is left."""

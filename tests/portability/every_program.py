@@ -158,7 +158,7 @@ def _of_instances() -> Iterator[Wanted]:
             kept = {"FROM_CAMERA": 1, "GRID": 1, "SAMPLES": 1}
             drawn += [("transfer.frag", kept), ("transfer_samples.frag", {"MOST_SAMPLES": MOST_SAMPLES})] if changes else []
             drawn += [("transfer_join.frag", {"LISTED": 1})] if slot == "medium" else []
-            drawn += [(path, {}) for path in ("transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
+            drawn += [(path, {}) for path in ("transfer_cells.frag", "transfer_marks.frag", "transfer_join.frag", "shade_media.frag") if slot == "medium"]
             drawn += [("shade_matter.frag", {"STRETCHES": 1, "MEETINGS": 0, "HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"ROWS_HELD": 1})] if slot == "medium" else []
             for path, switches in (*drawn, ("trace.frag", {"RAYS_LISTED": 1}), ("trace.frag", beside_none)):

@@ -55,6 +55,22 @@ def test_rays_that_only_surfaces_part_are_joined_where_their_light_is_close(rend
     assert 100 < made.own.count < 1000
 
 
+def test_what_media_are_drawn_in_holds_all_of_them_once_and_nothing_stands_beside_it(renderer: Renderer) -> None:
+    """Blending would draw a pixel of two bands twice, and the disk reads what an earlier picture left anywhere."""
+    scene = presets.load(["kerr"], SLAB | BEFORE_DISK | {"media.slab.outer_radius": 5.0})
+    for aside in (12.0, -12.0):
+        renderer.render(scene.with_values({"camera.yaw_deg": aside}), 1.0, SIZE, progressive=True)
+    made = renderer.coarse_transfer._made
+    assert made is not None and made.shown is not None
+    depth = np.frombuffer(made.depth.read(), np.float32).reshape(SIZE[::-1])
+    covered = np.zeros(SIZE[::-1], int)
+    for x, y, width, height in made.shown:
+        covered[y : y + height, x : x + width] += 1
+    assert np.all(covered[(depth < 0.375) | (depth > 0.625)] == 1) and np.all(covered <= 1)
+    assert 0.2 < np.mean(covered == 0) < 0.9
+    assert np.all(stretches_of(renderer)[:, covered == 0] == 0.0)
+
+
 def test_a_moving_pattern_is_marched_in_turns_and_exactly_where_time_stands(renderer: Renderer) -> None:
     scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
     renderer.render(scene, 1.0, SIZE)
