@@ -4,6 +4,7 @@
 // refine_nodes.frag) displaces what is seen by less than refine_px.
 #defines
 #include "common/constants.glsl"
+#include "common/row_error.glsl"
 
 #blocks
 
@@ -14,9 +15,6 @@ uniform float refine_px;
 
 out float solid;
 
-// Shares of the differences that stand for the error, as in refine_nodes.frag.
-const float OF_THIRD = 1.0 / 32.0, OF_FOURTH = 1.0 / 48.0, OF_SECOND = 1.0 / 256.0;
-
 // Kind and index of what is met, as reach_balls has them; −1 where the disk's plane is crossed before.
 int thing_of(float met) {
     int bits = int(met + 0.5);
@@ -25,16 +23,15 @@ int thing_of(float met) {
 
 // A row of four nodes, the cell between the middle two: whether all meet `thing`, and the error of interpolation between them.
 bool row_of(ivec2 first, ivec2 step, int thing, out vec3 slope, out vec3 error) {
-    vec4 node[4];
+    vec3 places[4];
     bool alike = true;
     for (int k = 0; k < 4; ++k) {
-        node[k] = texelFetch(things_met, first + k * step, 0);
-        alike = alike && thing_of(node[k].w) == thing;
+        vec4 node = texelFetch(things_met, first + k * step, 0);
+        places[k] = node.xyz;
+        alike = alike && thing_of(node.w) == thing;
     }
-    vec3 before = node[2].xyz - 2.0 * node[1].xyz + node[0].xyz, after = node[3].xyz - 2.0 * node[2].xyz + node[1].xyz;
-    vec3 third = after - before, second = dot(before, before) > dot(after, after) ? before : after;
-    error = (OF_THIRD + OF_FOURTH * length(third) / max(length(second), 1e-12)) * third + OF_SECOND * second;
-    slope = (node[2].xyz - node[1].xyz) / float(REFINE_STEP);
+    error = row_error(places);
+    slope = (places[2] - places[1]) / float(REFINE_STEP);
     return alike;
 }
 
@@ -49,17 +46,9 @@ void main() {
         alike = row_of(corner + ivec2(-1, k), ivec2(1, 0), thing, slope[k], error[k]) && alike;
         alike = row_of(corner + ivec2(k, -1), ivec2(0, 1), thing, slope[2 + k], error[2 + k]) && alike;
     }
-    // How far in pixels what is seen moves for an error in space: what of it lies along the surface.
     vec3 right = 0.5 * (slope[0] + slope[1]), up = 0.5 * (slope[2] + slope[3]);
-    float xx = dot(right, right), xy = dot(right, up), yy = dot(up, up), inverse = 1.0 / max(xx * yy - xy * xy, 1e-30);
     float moved = 0.0;
-    for (int k = 0; k < 2; ++k) {
-        vec2 worst = vec2(0.0);
-        for (int axis = 0; axis < 2; ++axis) {
-            vec2 along = vec2(dot(right, error[2 * axis + k]), dot(up, error[2 * axis + k]));
-            worst += abs(inverse * vec2(yy * along.x - xy * along.y, xx * along.y - xy * along.x));
-        }
-        moved = max(moved, length(worst));
-    }
+    for (int k = 0; k < 2; ++k)
+        moved = max(moved, displacement(right, up, error[k], error[2 + k]));
     solid = alike && moved < refine_px ? 1.0 : 0.0;
 }

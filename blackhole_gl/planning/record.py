@@ -24,6 +24,12 @@ cells."""
 GRID_MARGIN = 2
 """Nodes of that grid outside the picture on each side: those whose differences the picture's edge needs, and what they are differences from."""
 
+HALF_STEP = 2
+"""Pixels between the exact rays of a refined hit map where its coarse grid is too coarse."""
+
+HALF_MARGIN = 1
+"""Of these rays, those before the first of the picture's each way, as differences are taken; after the last there are twice as many."""
+
 INNERMOST_CROSSING = 1.02
 """The innermost crossing that is kept, in horizon radii: closer in, azimuth and g diverge."""
 

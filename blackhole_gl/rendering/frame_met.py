@@ -25,6 +25,7 @@ class FrameMet:
         balls: that hold each, (N, 4).
         numbers: 1 + kind + 32·index of each thing, as hits number them; 0 of media, int (N,).
         fills: which fill their balls with something opaque, bool (N,).
+        bodies: those, and which are shapes that lie in their balls, bool (N,).
     """
 
     kinds: tuple
@@ -32,6 +33,7 @@ class FrameMet:
     balls: np.ndarray
     numbers: np.ndarray
     fills: np.ndarray
+    bodies: np.ndarray
 
     @classmethod
     def of(cls, inputs: FrameInputs) -> FrameMet:
@@ -42,22 +44,24 @@ class FrameMet:
         return cls(tuple(entry[:2] for entry in key), key, reach.balls(inputs.plan, inputs.time), *_numbers(inputs.plan.scene))
 
 
-NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int), np.empty(0, bool))
+NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int), np.empty(0, bool), np.empty(0, bool))
 """Where rays meet the disk and the hole alone."""
 
 
-def _numbers(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+def _numbers(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return _numbers_of(scene.things, tuple(met.kinds(scene, "thing")), len(scene.media))
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)
-def _numbers_of(things: Instances, kinds: tuple[PlugIn, ...], media: int) -> tuple[np.ndarray, np.ndarray]:
+def _numbers_of(things: Instances, kinds: tuple[PlugIn, ...], media: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Kept by the scene's instances: while only the camera moves they are the same object."""
     numbers = {kind.key: number for number, kind in enumerate(kinds)}
     filling = {kind.key for kind in kinds if kind.traits.round and kind.traits.opaque}
+    shapes = {kind.key for kind in kinds if kind.traits.tells_apart}
     met_before: Counter[str] = Counter()
-    found, fills = np.zeros(len(things) + media, int), np.zeros(len(things) + media, bool)
+    found, fills, bodies = np.zeros(len(things) + media, int), np.zeros(len(things) + media, bool), np.zeros(len(things) + media, bool)
     for place, one in enumerate(things.values()):
         found[place], fills[place] = 1 + numbers[one.kind] + 32 * met_before[one.kind], one.kind in filling
+        bodies[place] = fills[place] or one.kind in shapes
         met_before[one.kind] += 1
-    return found, fills
+    return found, fills, bodies

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..physics.observer import cos_sin_deg
 from ..planning import REACH_STEP, REFINE_STEP, Plan
-from . import hit_texels, reach, refinement
+from . import half_grid, hit_texels, reach, refinement
 from .boxes import Box
 from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where
 from .frame_met import NOTHING_MET, FrameMet
@@ -79,6 +79,8 @@ class HitMap:
         self._changed: tuple[int, Squares] | None = None
         self._grid = refinement.CoarseGrid(ctx, programs)
         self._things = ThingsGrid(ctx, programs)
+        self._half = half_grid.HalfGrid(ctx, programs)
+        self._halved = False  # whether the last refined map has interpolated pixels of its own
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
@@ -231,7 +233,12 @@ class HitMap:
     def own_rays(self) -> np.ndarray:
         """Which pixels have a ray of their own, bool (height, width): all of a sharp map. Waits for the GPU."""
         width, height = self.textures[0].size
-        return np.ones((height, width), bool) if self.is_sharp else self._grid.own_rays()
+        if self.is_sharp:
+            return np.ones((height, width), bool)
+        found = self._grid.own_rays()
+        if self._halved:
+            found[self._sharp_rows :] &= ~self._half.interpolated()[self._sharp_rows :]
+        return found
 
     @property
     def classes(self) -> moderngl.Texture | None:
@@ -295,17 +302,42 @@ class HitMap:
             coarse = self._programs.get("trace.frag", inputs, NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, solid)
-            self._bind_tables(coarse)
-            self._grid.trace_own_rays(coarse, self.textures[: hit_texels.textures(inputs.plan.orders)], OWN_RAYS)
             if solid is not None:
                 self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
-            self._bind_tables(rays)
-            self._grid.trace_own_rays(rays, self.textures, OPEN_THINGS)
+            self._trace_own_rays(coarse, rays)
         else:
             self._grid.trace(rays, None)
-            self._grid.trace_own_rays(rays, self.textures, OWN_RAYS)
+            self._trace_own_rays(rays, None)
         self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
-        self.marched += self._grid.marched
+        self.marched += self._grid.marched + (self._half.marched if self._halved else self._grid.left)
+
+    def _trace_own_rays(self, rays: Draw, seeking: Draw | None) -> None:
+        """Rays for the pixels that the coarse grid leaves, `seeking` for those that may show things: at every second pixel where that will do."""
+        plan = rays.inputs.plan
+        drawn = [(rays, OWN_RAYS, self.textures[: hit_texels.textures(plan.orders)], half_grid.WITHOUT_THINGS)]
+        drawn += [] if seeking is None else [(seeking, OPEN_THINGS, self.textures, half_grid.WITH_THINGS)]
+        self._halved = self._halves(rays.inputs)
+        if self._halved:
+            for draw, _, _, where in drawn:
+                self._bind_tables(draw)
+                self._half.trace(draw, where)
+            narrow = half_grid.narrow_balls(rays.inputs, self._met.balls, self._met.bodies)
+            self._half.judge(rays.inputs, self._grid.cell_classes, self.known, narrow)
+            self._half.fill(rays.inputs, self.textures)
+        for draw, where, textures, _ in drawn:
+            self._bind_tables(draw)
+            (self._half if self._halved else self._grid).trace_own_rays(draw, textures, where)
+
+    def _halves(self, inputs: FrameInputs) -> bool:
+        """Whether there are parts of the picture of `inputs` for which rays at every second pixel will do, which are then chosen.
+
+        Crossings of the disk's plane are not interpolated so, nor are cells beside a hole's shadow that no thing is seen in: they are few.
+        """
+        plan = inputs.plan
+        if plan.orders or plan.meetings > 1 or plan.times:
+            return False
+        own, things = self._grid.cells_that_are(OWN_RAYS), self._grid.cells_that_are(OPEN_THINGS)
+        return self._half.choose(inputs, len(self.textures), own & plan.model.traits.field, things & (self.known is not None))
 
     def _sharpen(self, rays: Draw, target: moderngl.Framebuffer) -> None:
         height = target.size[1]
@@ -441,6 +473,7 @@ class HitMap:
         self.instances.release()
         self._grid.release()
         self._things.release()
+        self._half.release()
         self._reach.release()
         self._release_targets()
         if self._pixels is not None:

@@ -78,10 +78,14 @@ class CoarseGrid:
 
     @property
     def marched(self) -> int:
-        """Rays of the last `trace` and of its pixels that cannot be interpolated."""
+        """Rays of the last `trace`."""
         columns, rows = self._made.rays.size
-        own = 0 if self._cells is None else int(np.count_nonzero(OWN_RAYS.holds(self._cells) | OPEN_THINGS.holds(self._cells)))
-        return columns * rows + own * REFINE_STEP**2
+        return columns * rows
+
+    @property
+    def left(self) -> int:
+        """Pixels of the last `trace` that cannot be interpolated."""
+        return 0 if self._cells is None else int(np.count_nonzero(OWN_RAYS.holds(self._cells) | OPEN_THINGS.holds(self._cells))) * REFINE_STEP**2
 
     @property
     def classes(self) -> moderngl.Texture:
@@ -121,6 +125,17 @@ class CoarseGrid:
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
             rays.draw_boxes(self.bands(where))
+
+    def cells_that_are(self, where: Where) -> np.ndarray:
+        """The cells whose pixels are `where`, bool (rows, columns): right after `trace`."""
+        if self._cells is None:
+            raise RuntimeError("what cells need is known right after `trace` alone")
+        return where.holds(self._cells)
+
+    @property
+    def cell_classes(self) -> moderngl.Texture:
+        """R8: depth by what the pixels of each cell need."""
+        return self._made.cells.textures[1]
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """What common/hit_map_read.glsl reads, by name."""

@@ -168,8 +168,9 @@ def _of_instances() -> Iterator[Wanted]:
                 yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
                 yield "reach_marks.frag", f"{kind} by {model}", made, {}
                 if made.meetings == 1:
-                    filled = *((f"refine_{name}.frag", {}) for name in ("marks", "things", "bends", "fill")), ("refine_cells.frag", FILLED)
-                    yield from ((path, f"{kind} by {model}", made, switches) for path, switches in filled)
+                    filled = *((f"refine_{name}.frag", {}) for name in ("marks", "things", "bends", "fill", "half_marks")), ("refine_cells.frag", FILLED)
+                    halves = ((f"refine_half_{name}.frag", {"MEETINGS": seeking}) for name in ("cells", "fill") for seeking in (0, 1))
+                    yield from ((path, f"{kind} by {model}", made, switches) for path, switches in (*filled, *halves))
 
 
 def _of_views() -> Iterator[Wanted]:

@@ -1,0 +1,251 @@
+"""A moving camera's rays where the coarse grid is too coarse: rays at every second pixel, and those between interpolated where they bend little enough.
+
+It is for cells whose pixels would all have rays of their own, where many of these lie together: whatever is interpolated is written into the map as if traced.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from ..glsl.declared import PixelClass
+from ..physics.observer import cos_sin_deg
+from ..planning import HALF_MARGIN, HALF_STEP, REFINE_STEP
+from ..shapes import Bool, Float, Int
+from .boxes import bands_of
+from .classes import MATTER, OPEN_THINGS, OWN_RAYS, Where, drawn
+from .inputs import FrameInputs
+from .programs import Draw, Programs
+from .reach import Reached
+from .refinement import tolerances
+from .target import Target
+
+# Of a cell and the eight about it so many have to be traced: along lines, such as outlines of things, rays of their own are cheaper.
+_TOGETHER = 6
+
+# Things that are seen as wide as that straight on, in pixels, are told by rays two pixels apart.
+_WIDE_PX = 16.0
+
+# What stands in the texture of chosen cells, of 255.
+_CLEAR, _NOT_CLEAR = 128, 255
+
+# Rows of these cells whose pixels are drawn at a time.
+_BAND = 32
+
+WITHOUT_THINGS, WITH_THINGS = Where("<", 0.75), Where(">", 0.25)
+"""The rays by shaders/refine_half_marks.frag."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """All that pictures of one size and number of targets take.
+
+    Attributes:
+        made_for: that size and number.
+        chosen: of the coarse grid's cells, R8, for shaders/refine_half_marks.frag.
+        rays: their hits, with a depth by which they are drawn.
+        without_things: draws into the first of those textures alone.
+        marks: draws that depth.
+        cells: of 2×2 pixels, R8, as shaders/refine_half_cells.frag leaves them.
+        classes: depth of the picture's size, by these.
+        sorted: draws into `classes`.
+    """
+
+    made_for: tuple[tuple[int, int], int]
+    chosen: moderngl.Texture
+    rays: Target
+    without_things: moderngl.Framebuffer
+    depth: moderngl.Texture
+    marks: moderngl.Framebuffer
+    cells: Target
+    classes: moderngl.Texture
+    sorted: moderngl.Framebuffer
+
+    def release(self) -> None:
+        for item in (self.chosen, self.rays, self.without_things, self.marks, self.depth, self.cells, self.sorted, self.classes):
+            item.release()
+
+
+class HalfGrid:
+    """Draws shaders/refine_half_*.frag.
+
+    Attributes:
+        cells: depth by what the 2×2 pixels of each cell still needed when `judge` was called last: of `MATTER` they were interpolated.
+    """
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs):
+        self._ctx, self._programs = ctx, programs
+        self._kept: _Made | None = None
+        self._into: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
+        self.cells = np.empty((0, 0), np.float32)
+        self._rays = 0  # of the last picture
+
+    def choose(self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"]) -> bool:
+        """Marks the rays for those of the coarse grid's cells that lie together; whether there are any.
+
+        Args:
+            count: targets of the trace pass.
+            own, things: which cells have rays of their own that meet no things, and that may.
+        """
+        left = own | things
+        together = left & (_about(left) >= _TOGETHER)
+        if not np.any(together):
+            return False
+        made = self._targets(inputs.size, count)
+        chosen = np.where(together & things, _NOT_CLEAR, np.where(together, _CLEAR, 0)).astype(np.uint8)
+        made.chosen.write(chosen.tobytes(), alignment=1)
+        self._rays = int(np.count_nonzero(_about(together) > 0)) * (REFINE_STEP // HALF_STEP) ** 2
+        made.rays.frame.clear()
+        marks = self._programs.get("refine_half_marks.frag", inputs)
+        marks.sample({"chosen": made.chosen})
+        self._write_depth(made.marks, marks, None)
+        return True
+
+    def trace(self, rays: Draw, where: Where) -> None:
+        """Traces the marked rays that are `where`; those that meet no things by the trace pass for these."""
+        made = self._made
+        first = -HALF_MARGIN * HALF_STEP
+        rays.set(ray_grid=(HALF_STEP, first, first))
+        frame = made.rays.frame if where is WITH_THINGS else made.without_things
+        frame.use()
+        frame.depth_mask = False
+        with drawn(self._ctx, rays, where):
+            rays.draw()
+
+    def judge(self, inputs: FrameInputs, cell_classes: moderngl.Texture, reached: Reached | None, narrow: int) -> None:
+        """Tells which pixels are interpolated, and sorts all that had rays of their own by what they still need.
+
+        Args:
+            cell_classes: of the coarse grid's cells.
+            reached: what these may show; None in a scene without things.
+            narrow: a bit for each of its balls that may be seen narrower than two pixels (`narrow_balls`).
+        """
+        made = self._made
+        cells = self._programs.get("refine_half_cells.frag", inputs)
+        cells.sample({"chosen": made.chosen, "cell_classes": cell_classes, **self._hits, **({} if reached is None else {"cell_balls": reached.cell_balls})})
+        cells.set(refine_tolerance=tolerances(inputs), refine_px=inputs.plan.refine_px)
+        if cells.takes("narrow_balls"):
+            cells.set(narrow_balls=narrow)
+        made.cells.frame.use()
+        cells.draw()
+        texture = made.cells.texture
+        self.cells = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width) * np.float32(1.0 / 255.0)
+        sort = self._programs.get("refine_classes.frag", inputs)
+        sort.sample({"cell_classes": texture})
+        sort.set(pixels_to_cells=tuple(1.0 / (HALF_STEP * side) for side in texture.size), all_traced=0.0)
+        made.sorted.clear(depth=PixelClass.NEITHER.depth)
+        self._write_depth(made.sorted, sort, np.abs(self.cells - PixelClass.NEITHER.depth) > 0.05)
+
+    def fill(self, inputs: FrameInputs, textures: Sequence[moderngl.Texture]) -> None:
+        """Writes what is interpolated into `textures`, of the picture's size."""
+        fill = self._programs.get("refine_half_fill.frag", inputs)
+        fill.sample(self._hits)
+        self.trace_own_rays(fill, textures, MATTER)
+
+    def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
+        """Draws those pixels that are `where` into `textures`, of the picture's size: `OWN_RAYS` and `OPEN_THINGS` are those left to trace."""
+        into = self._into.get(len(textures))
+        if into is None or into.color_attachments != tuple(textures) or into.depth_attachment is not self._made.classes:
+            if into is not None:
+                into.release()
+            into = self._into[len(textures)] = self._ctx.framebuffer(textures, self._made.classes)
+        into.use()
+        into.depth_mask = False
+        if rays.takes("ray_grid"):
+            rays.set(ray_grid=(1.0, 0.0, 0.0))
+        with drawn(self._ctx, rays, where):
+            rays.draw_boxes(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND))
+
+    @property
+    def marched(self) -> int:
+        """Rays of the last picture, a few too many, and of its pixels that these did not spare."""
+        left = OWN_RAYS.holds(self.cells) | OPEN_THINGS.holds(self.cells)
+        return self._rays + int(np.count_nonzero(left)) * HALF_STEP**2
+
+    def interpolated(self) -> Bool[np.ndarray, "height width"]:
+        """Which pixels of the last picture are, row 0 at the bottom."""
+        width, height = self._made.classes.size
+        filled = MATTER.holds(self.cells) & ~OWN_RAYS.holds(self.cells)
+        return np.kron(filled, np.ones((HALF_STEP, HALF_STEP), bool))[:height, :width]
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for into in self._into.values():
+            into.release()
+        if self._kept is not None:
+            self._kept.release()
+        self._into, self._kept = {}, None
+
+    @property
+    def _made(self) -> _Made:
+        if self._kept is None:
+            raise RuntimeError("no rays have been chosen yet: `choose` comes first")
+        return self._kept
+
+    @property
+    def _hits(self) -> Mapping[str, moderngl.Texture]:
+        textures = self._made.rays.textures
+        return {"half0": textures[0], **dict(zip(("half_met", "half_way"), textures[1:]))}
+
+    def _write_depth(self, into: moderngl.Framebuffer, draw: Draw, picked: Bool[np.ndarray, "rows columns"] | None) -> None:
+        into.use()
+        self._ctx.enable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "1"  # always
+        if picked is None:
+            draw.draw()
+        else:
+            draw.draw_boxes(bands_of(picked, into.size, HALF_STEP, _BAND))
+        self._ctx.disable(moderngl.DEPTH_TEST)
+        self._ctx.depth_func = "<"
+
+    def _targets(self, size: tuple[int, int], count: int) -> _Made:
+        if self._kept is None or self._kept.made_for != (size, count):
+            self.release()
+            self._kept = self._make(size, count)
+        return self._kept
+
+    def _make(self, size: tuple[int, int], count: int) -> _Made:
+        coarse = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
+        cells = -(-size[0] // HALF_STEP), -(-size[1] // HALF_STEP)
+        nodes = cells[0] + 3 * HALF_MARGIN, cells[1] + 3 * HALF_MARGIN
+        depth, classes = self._ctx.depth_texture(nodes), self._ctx.depth_texture(size)
+        rays = Target.of(self._ctx, [self._texture(nodes, 4, "f4", moderngl.LINEAR) for _ in range(count)], depth)
+        return _Made(
+            (size, count),
+            chosen=self._texture(coarse, 1, "f1", moderngl.NEAREST),
+            rays=rays,
+            without_things=self._ctx.framebuffer(rays.textures[:1], depth),
+            depth=depth,
+            marks=self._ctx.framebuffer([], depth),
+            cells=Target.of(self._ctx, [self._texture(cells, 1, "f1", moderngl.NEAREST)]),
+            classes=classes,
+            sorted=self._ctx.framebuffer([], classes),
+        )
+
+    def _texture(self, size: tuple[int, int], components: int, dtype: str, filtered: int) -> moderngl.Texture:
+        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
+        texture.filter = filtered, filtered
+        texture.repeat_x = texture.repeat_y = False
+        return texture
+
+
+def narrow_balls(inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], bodies: Bool[np.ndarray, " balls"]) -> int:
+    """A bit for each of the balls of `reach.Reached` that may be seen narrower than two pixels, as it is far away, or as what lies in it is no body."""
+    camera = inputs.plan.scene.camera
+    seen = balls[:, 3] > 0.0
+    pixel = math.radians(camera.fov_deg) / inputs.size[1]
+    (c, s), (cos_azimuth, sin_azimuth) = cos_sin_deg(camera.inclination_deg), cos_sin_deg(inputs.plan.azimuth_deg)
+    distances = np.linalg.norm(balls[seen, :3] - camera.distance * np.array([s * cos_azimuth, s * sin_azimuth, c]), axis=1)
+    wide = bodies[seen] & (balls[seen, 3] > 0.5 * _WIDE_PX * pixel * distances)
+    return int(np.sum(1 << np.flatnonzero(~wide)))
+
+
+def _about(cells: Bool[np.ndarray, "rows columns"]) -> Int[np.ndarray, "rows columns"]:
+    """Of each cell, how many of it and the eight about it are among `cells`."""
+    padded = np.pad(cells, 1).astype(np.uint8)
+    columns = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return columns[:-2] + columns[1:-1] + columns[2:]

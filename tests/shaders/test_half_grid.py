@@ -1,0 +1,97 @@
+"""Rays at every second pixel under a moving camera, where the coarse grid is too coarse: what lies between them is seen where an exact map has it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from blackhole_gl.planning import plan
+from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.frame_met import FrameMet
+from blackhole_gl.rendering.half_grid import narrow_balls
+from blackhole_gl.rendering.hit_texels import HitArrays
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.scene import Scene, presets
+
+SIZE = (320, 180)
+
+
+def _inputs(scene: Scene) -> FrameInputs:
+    return FrameInputs.whole(plan(scene), 0.0, SIZE)
+
+
+def _traced(renderer: Renderer, scene: Scene, *, progressive: bool) -> HitArrays:
+    renderer.hit_map.forget()
+    renderer.hit_map.trace(_inputs(scene), progressive=progressive)
+    return renderer.hits()
+
+
+def _displacement(values: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """By how many pixels an `error` of `values` (height, width, 3) moves what is seen: what of it lies along their change, by that change."""
+    up, right = np.gradient(values.astype(float), axis=(0, 1))
+    xx, xy, yy = (np.sum(a * b, axis=-1) for a, b in ((right, right), (right, up), (up, up)))
+    along = np.stack([np.sum(right * error, axis=-1), np.sum(up * error, axis=-1)], axis=-1)
+    moved = np.stack([yy * along[..., 0] - xy * along[..., 1], xx * along[..., 1] - xy * along[..., 0]], axis=-1)
+    return np.linalg.norm(moved, axis=-1) / np.maximum(xx * yy - xy * xy, 1e-30)
+
+
+def test_most_of_an_explosion_is_interpolated_and_displaced_by_less_than_the_tolerance(renderer: Renderer) -> None:
+    """By the coarse grid alone three fifths of a picture this small have rays of their own."""
+    scene = presets.load(["explosion"], {"rays.edges": 1})
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    own = renderer.hit_map.own_rays()
+    assert 0.02 < own.mean() < 0.2
+    error = found.direction - exact.direction
+    pixel = np.radians(scene.camera.fov_deg) / SIZE[1]
+    moved = np.minimum(np.linalg.norm(error, axis=-1) / pixel, _displacement(exact.direction, error))
+    print(f"{own.mean():.3f} have rays of their own; displaced by {np.quantile(moved, 0.99):.3f} px at 99 %")
+    assert np.quantile(moved, 0.99) <= scene.rays.tolerance
+    np.testing.assert_array_equal(found.fate, exact.fate)
+    np.testing.assert_array_equal(found.direction[own], exact.direction[own])
+
+
+def test_balls_behind_a_shock_wave_are_where_they_are_and_fewer_pixels_have_rays_of_their_own(renderer: Renderer) -> None:
+    scene = presets.load(["objects_refraction"], {"rays.edges": 1})
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    np.testing.assert_array_equal(found.met, exact.met)
+    assert renderer.hit_map.own_rays().mean() < 0.3  # 0.41 by the coarse grid alone
+
+
+def test_no_place_on_a_mesh_is_interpolated_between_its_near_and_its_far_part(renderer: Renderer) -> None:
+    """Outlines may be displaced as everywhere in motion; where both maps show the knot, its strands hide each other."""
+    scene = presets.load(["knot_behind_a_hole"], {"rays.edges": 1})
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    own = renderer.hit_map.own_rays()
+    both = (exact.met[..., 0, 0] >= 0) & (found.met[..., 0, 0] >= 0)
+    assert (both & ~own).mean() > 0.04 and own.mean() < 0.25
+    strand = 0.5  # r_s, less than one is thick
+    error = np.linalg.norm(found.met_place - exact.met_place, axis=-1)[..., 0]
+    elsewhere = np.count_nonzero(error[both & ~own] > strand)
+    print(f"{own.mean():.3f} have rays of their own; {elsewhere} of {np.count_nonzero(both & ~own)} interpolated are elsewhere")
+    assert elsewhere == 0
+
+
+@pytest.mark.parametrize("name", ["explosion", "knot_behind_a_hole"])
+def test_at_rest_every_pixel_is_the_exact_map_s(renderer: Renderer, name: str) -> None:
+    scene = presets.load([name], {"rays.edges": 1})
+    exact = _traced(renderer, scene, progressive=False)
+    _traced(renderer, scene, progressive=True)
+    shares = []
+    while not renderer.hit_map.is_sharp:
+        renderer.hit_map.trace(_inputs(scene), progressive=True)
+        shares.append(renderer.hit_map.own_rays().mean())
+    assert len(shares) == 12 and all(before < after for before, after in zip(shares, shares[1:]))
+    sharp = renderer.hits()
+    np.testing.assert_array_equal(sharp.direction, exact.direction)
+    if exact.met is not None:
+        np.testing.assert_array_equal(sharp.met_place, exact.met_place)
+
+
+def test_what_may_be_seen_narrower_than_two_pixels_is_told(renderer: Renderer) -> None:
+    """A ball of 0.1 r_s 14 r_s away is 2.6 pixels wide here; a ring has no inside, however large its ball is."""
+    things = {"things.small.kind": "sphere", "things.small.radius": 0.1, "things.wide.kind": "sphere", "things.wide.radius": 1.0, "things.ring.kind": "annulus"}
+    inputs = _inputs(presets.load(["objects_refraction"], things))
+    met = FrameMet.of(inputs)
+    seen = [name for name, ball in zip(inputs.plan.scene.things, met.balls) if ball[3] > 0.0]
+    narrow = narrow_balls(inputs, met.balls, met.bodies)
+    assert [name for bit, name in enumerate(seen) if narrow >> bit & 1] == ["small", "ring"]
