@@ -22,6 +22,7 @@ _BESIDE = 2  # pixels by which what a pixel shows decides about others
 _SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
 _LARGEST = np.iinfo(np.uint16).max
 _SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
+_SEEN_THROUGH_VEIL_AT_CORNERS = np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
 
 
 class EdgePixels:
@@ -97,7 +98,8 @@ class EdgePixels:
 def at_edges(marks: np.ndarray) -> np.ndarray:
     """Column and row, int (N, 2), of the pixels of `marks` (height, width) that differ from one of the eight beside them; in order of rows.
 
-    Left out are the direct picture's own edges, as its cover is smooth, and what it hides.
+    Left out are the direct picture's own edges, as its cover is smooth, and what it hides. Behind it a pixel at whose corner alone the hole or a ring begins
+    does as well with one ray: a straight edge does not cut it, and what a thin ring has of it is hidden.
 
     Args:
         marks: shaders/common/edge_marks.glsl, its first number in the low byte.
@@ -109,13 +111,14 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
     flat[1:-1, 1:] = marks
     flat = flat.ravel()
     found = np.zeros(flat.size, bool)
-    for apart in (1, width - 1, width, width + 1):
+    at_corners = _SEEN_THROUGH_VEIL_AT_CORNERS
+    for apart, through_veil in ((1, _SEEN_THROUGH_VEIL), (width - 1, at_corners), (width, _SEEN_THROUGH_VEIL), (width + 1, at_corners)):
         first = np.flatnonzero(flat[apart:] != flat[:-apart])
         first = first[_has_ray(flat[first]) & _has_ray(flat[first + apart])]
         here, there = flat[first], flat[first + apart]
         changed = here ^ there
-        found[first[changed & _counts(here) != 0]] = True
-        found[first[changed & _counts(there) != 0] + apart] = True
+        found[first[changed & _counts(here, through_veil) != 0]] = True
+        found[first[changed & _counts(there, through_veil) != 0] + apart] = True
     rows, columns = np.divmod(np.flatnonzero(found), width)
     return np.stack([columns - 1, rows - 1], axis=-1)
 
@@ -132,9 +135,9 @@ def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     return found
 
 
-def _counts(marks: np.ndarray) -> np.ndarray:
-    """The bits in which the mark beside has to differ."""
-    return np.where(marks & EdgeMark.VEILED, _SEEN_THROUGH_VEIL, _SEEN)
+def _counts(marks: np.ndarray, through_veil: np.uint16) -> np.ndarray:
+    """The bits in which the mark beside has to differ, if those do of a pixel whose rings are veiled."""
+    return np.where(marks & EdgeMark.VEILED, through_veil, _SEEN)
 
 
 def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:

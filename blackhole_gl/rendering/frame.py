@@ -379,6 +379,8 @@ class Renderer:
         return _drawn(self._radiance)
 
     def _light_key(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> tuple | None:
+        if not kept_light.stands(inputs.plan):
+            return None
         files = self._tables.pictures.stamps(chosen(inputs.plan, "sky", "disk_layer", "ray_model"), inputs.plan.scene)
         own = self.hit_map.generation, self.hit_map.is_sharp, motion, self.programs.compiled, files
         key = kept_light.key(inputs, *own)

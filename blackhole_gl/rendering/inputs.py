@@ -85,17 +85,22 @@ class UniformBuffers:
         self._written: dict[str, bytes] | None = None
 
     def bind(self, inputs: FrameInputs, used: Collection[str]) -> None:
-        """Binds those blocks of `inputs` that are `used`, all written anew unless they are those written last. Binding is not remembered: others may share the
+        """Binds those blocks of `inputs` that are `used`, each written anew unless it is what was written last. Binding is not remembered: others may share the
         context."""
+        if inputs.blocks is not self._written:
+            self._write(inputs.blocks)
         for block in uniforms.blocks():
-            buffer = self._buffers.get(block.name)
-            if buffer is None:
-                buffer = self._buffers[block.name] = self._ctx.buffer(inputs.blocks[block.name], dynamic=True)
-            elif inputs.blocks is not self._written:
-                buffer.write(inputs.blocks[block.name])
             if block.name in used:
-                buffer.bind_to_uniform_block(block.binding)
-        self._written = inputs.blocks
+                self._buffers[block.name].bind_to_uniform_block(block.binding)
+
+    def _write(self, blocks: dict[str, bytes]) -> None:
+        for name, packed in blocks.items():
+            buffer = self._buffers.get(name)
+            if buffer is None:
+                self._buffers[name] = self._ctx.buffer(packed, dynamic=True)
+            elif self._written is None or packed is not self._written[name]:
+                buffer.write(packed)
+        self._written = blocks
 
     def release(self) -> None:
         """Gives the GL objects back."""

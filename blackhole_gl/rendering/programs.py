@@ -8,7 +8,7 @@ import os
 import time as clock
 from collections import OrderedDict, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property, lru_cache, partial
 from itertools import count
 from pathlib import Path
@@ -22,7 +22,8 @@ from ..glsl.compose import Composed, ShaderError, compose
 from ..output import cache
 from ..planning import Plan
 from ..resources import shaders_dir, user_shaders_dir
-from ..scene import catalogue, met
+from ..scene import Scene, catalogue, met
+from ..scene import fields as scene_fields
 from . import instances, uniforms
 from .boxes import Box
 from .inputs import FrameInputs, UniformBuffers
@@ -42,6 +43,8 @@ SHADE_SLOTS = ("disk_layer", "sky")
 MET_SLOTS = ("thing", "medium")
 
 _VERTEX = {"star_layer.frag": "star_layer.vert", "turned.frag": "turned.vert"}  # of programs that draw points or a mesh; all others draw a triangle
+
+_SECTIONS = tuple(section.name for section in fields(Scene) if section.name != "camera")
 
 _BETWEEN = "\0"  # a program's two texts, neither of which may hold it
 
@@ -224,6 +227,7 @@ class Programs:
         self._buffers, self._squares = UniformBuffers(ctx), SquareBuffer(ctx)
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
+        self._ready: dict[tuple, Compiled] = {}  # by recipe: those asked for since something was last compiled
         self._asked: deque[tuple[Plan, _Structure]] = deque(maxlen=_PLANS)
         self._seen = self._times()
         self._content: bytes | None = None
@@ -238,19 +242,28 @@ class Programs:
             ShaderError: the text cannot be composed or compiled; it names file and line.
             Unready: it would have to be compiled, and the `deadline` has passed.
         """
-        recipe = path, self._structure(inputs.plan), tuple((extra or {}).items())
+        recipe = path, self._structure(inputs.plan), tuple(extra.items()) if extra else ()
+        ready = self._ready.get(recipe)
+        if ready is None:
+            ready = self._made_ready(recipe)
+        return Draw(ready, inputs, self._buffers, self._squares)
+
+    def _made_ready(self, recipe: tuple) -> Compiled:
         if recipe not in self._composed:
             self._composed[recipe] = self._compose(*recipe)
             if len(self._composed) > _MOST_RECIPES:
                 self._composed.popitem(last=False)
         self._composed.move_to_end(recipe)
-        return Draw(self._compiled(self._composed[recipe], by=self.deadline), inputs, self._buffers, self._squares)
+        ready = self._compiled(self._composed[recipe], by=self.deadline)
+        self._ready[recipe] = ready
+        return ready
 
     def release(self) -> None:
         """Gives the GL objects back."""
         for compiled in self._kept.values():
             compiled.release()
         self._kept.clear()
+        self._ready.clear()
         self._buffers.release()
         self._squares.release()
 
@@ -260,6 +273,7 @@ class Programs:
         if times == self._seen:
             return self.errors
         self._seen, self.errors, self._content = times, [], None
+        self._ready.clear()
         for recipe in self._composed:
             try:
                 composed = self._compose(*recipe)
@@ -275,13 +289,8 @@ class Programs:
         for asked, known in self._asked:
             if asked is plan:
                 return known
-        things = met.seen_kinds(plan.scene, "thing")
-        groups = [*((slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, "medium")), ("thing", things)]
-        groups += [(f"thing_by_{way}", [kind for kind in things if kind.traits.meets == way]) for way in ("distance", "crossing")]
-        groups.append(("thing_told_apart", [kind for kind in things if kind.traits.tells_apart]))
-        groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
-        paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
-        found = _as_before(_Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS))))
+        like = next((known for asked, known in self._asked if _same_text(asked, plan)), None)
+        found = like or _as_before(_structure_of(plan))
         self._asked.append((plan, found))
         return found
 
@@ -324,6 +333,7 @@ class Programs:
             if clock.perf_counter() > by and (by == -math.inf or self.compiled > self._compiled_before):
                 raise Unready("the programs of this scene are still being compiled")
             self._kept[texts] = self._compile(texts)
+            self._ready.clear()
             if len(self._kept) > MOST_KEPT:
                 self._kept.popitem(last=False)[1].release()
         self._kept.move_to_end(texts)
@@ -343,6 +353,35 @@ class Programs:
 
     def _times(self) -> tuple:
         return tuple((file, os.stat(file).st_mtime_ns) for root in self.roots for file in _shader_files(root))
+
+
+def _structure_of(plan: Plan) -> _Structure:
+    """What `plan` asks of a program's text."""
+    things = met.seen_kinds(plan.scene, "thing")
+    groups = [*((slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, "medium")), ("thing", things)]
+    groups += [(f"thing_by_{way}", [kind for kind in things if kind.traits.meets == way]) for way in ("distance", "crossing")]
+    groups.append(("thing_told_apart", [kind for kind in things if kind.traits.tells_apart]))
+    groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
+    paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
+    return _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
+
+
+def _same_text(plan: Plan, other: Plan) -> bool:
+    """Whether both surely ask for the same text, as they differ in numbers of the camera and of steps alone: so do the frames of a camera that moves."""
+    return _but_for_camera(plan) == _but_for_camera(other) and plan.scene.several(_camera_words()) == other.scene.several(_camera_words())
+
+
+def _but_for_camera(plan: Plan) -> tuple:
+    """What a plan's structure depends on beside its camera."""
+    scene = plan.scene
+    of_plan = plan.model, plan.integrator, plan.step_control, plan.orders, plan.meetings, plan.space_time.kind
+    return *of_plan, *(getattr(scene, section) for section in _SECTIONS)
+
+
+@lru_cache(maxsize=1)
+def _camera_words() -> tuple[str, ...]:
+    """The keys of all choices and switches of cameras."""
+    return tuple(key for key, item in scene_fields().items() if key.startswith("camera.") and item.kind in ("choice", "switch"))
 
 
 def _content(roots: Sequence[Path]) -> bytes:

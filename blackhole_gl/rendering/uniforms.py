@@ -238,8 +238,21 @@ def _choice_names() -> tuple[tuple[str, ...], tuple[Mapping[Value, Mapping[str, 
 
 def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
     """The packed blocks by name, for a `picture` of so many pixels of which the part from `offset` on is drawn."""
-    return {
-        ray_block().name: ray_block().pack(ray_values(plan, picture, offset)),
-        shade_block().name: shade_block().pack(shade_values(plan, time)),
-        scene_block().name: scene_block().pack(scene_values(plan)),
-    }
+    of_rays, of_scene = _without_time(plan, picture, offset)
+    return {ray_block().name: of_rays, shade_block().name: shade_block().pack(shade_values(plan, time)), scene_block().name: of_scene}
+
+
+def _without_time(plan: Plan, picture: tuple[int, int], offset: tuple[float, float]) -> tuple[bytes, bytes]:
+    """The packed blocks that time does not change, of rays and of the scene: the same objects for the same plan until another is asked for, as a camera at rest
+    asks for them in every frame."""
+    global _last_without_time
+    if _last_without_time is not None:
+        kept, (of_plan, *of_rest) = _last_without_time
+        if of_plan is plan and of_rest == [picture, offset]:
+            return kept
+    made = ray_block().pack(ray_values(plan, picture, offset)), scene_block().pack(scene_values(plan))
+    _last_without_time = made, (plan, picture, offset)
+    return made
+
+
+_last_without_time: tuple[tuple[bytes, bytes], tuple[Plan, tuple[int, int], tuple[float, float]]] | None = None

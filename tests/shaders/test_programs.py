@@ -4,8 +4,10 @@ import math
 
 import pytest
 
+from blackhole_gl.planning import plan
 from blackhole_gl.rendering import frame, programs
-from blackhole_gl.scene import Scene
+from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.scene import Scene, presets
 
 SIZE = (18, 12)
 
@@ -68,3 +70,37 @@ def test_the_programs_used_last_are_kept(renderer, monkeypatch):
     assert compiled > needed and len(renderer.programs._kept) == needed
     renderer.render(other, 1.0, SIZE)
     assert renderer.programs.compiled == compiled
+
+
+MOVES = (
+    {"camera.inclination_deg": 40.0, "camera.azimuth_deg": 77.0},
+    {"camera.distance": 3.5},
+    {"camera.fov_deg": 20.0, "camera.yaw_deg": 12.0},
+    {"camera.observer": "fall"},
+    {"camera.projection": "dome"},
+    {"camera.distance": 60.0},
+)
+
+
+@pytest.mark.parametrize("preset", ["kerr", "schwarzschild", "gargantua_s1", "plunging_matter", "fish_eye", "cloudy_slab", "real_sky", "tilted_disk"])
+def test_what_is_taken_for_the_same_text_is_the_same(preset):
+    """Frames of a moving camera are not asked in full for what they are made of."""
+    here, like = plan(presets.load([preset])), 0
+    for values in MOVES:
+        there = plan(presets.load([preset], values))
+        if programs._same_text(here, there):
+            like += 1
+            assert programs._structure_of(here) == programs._structure_of(there), values
+    assert like
+
+
+def test_a_camera_that_only_moves_is_asked_once_for_what_its_programs_are_made_of(renderer, monkeypatch):
+    asked, plain = [], programs._structure_of
+    monkeypatch.setattr(programs, "_structure_of", lambda made: asked.append(made) or plain(made))
+    scene = presets.load(["kerr"])
+    for turn in range(5):
+        made = plan(scene.with_values({"camera.inclination_deg": 60.0 + turn, "camera.azimuth_deg": 10.0 * turn}))
+        renderer.programs.get("trace.frag", FrameInputs.whole(made, 0.0, SIZE))
+    assert len(asked) == 1
+    renderer.programs.get("trace.frag", FrameInputs.whole(plan(scene.with_values({"disk.enabled": False})), 0.0, SIZE))
+    assert len(asked) == 2

@@ -19,15 +19,17 @@ MARKS = (
 def by_pixel(marks: np.ndarray) -> list[tuple[int, int]]:
     """The rule as it is told: a pixel with a ray that differs, in what counts for it, from one beside it that has a ray too."""
     height, width = marks.shape
-    found = []
-    for y in range(height):
-        for x in range(width):
-            here = int(marks[y, x])
-            ignored = EdgeMark.VEILED | (3 * EdgeMark.RING_1 if here & EdgeMark.VEILED else 0)
-            beside = [int(mark) for mark in marks[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].ravel()]
-            if here != NO_RAY and any(mark != NO_RAY and (mark ^ here) & ~ignored for mark in beside):
-                found.append((x, y))
-    return found
+
+    def differs(here: int, x: int, y: int, corner: bool) -> bool:
+        veiled = corner and EdgeMark.MET << 8 | EdgeMark.IN_FIELD or ~(EdgeMark.VEILED | 3 * EdgeMark.RING_1)
+        beside = int(marks[y, x]) if 0 <= x < width and 0 <= y < height else NO_RAY
+        return beside != NO_RAY and (beside ^ here) & (veiled if here & EdgeMark.VEILED else ~EdgeMark.VEILED) != 0
+
+    def at_edge(x: int, y: int) -> bool:
+        here = int(marks[y, x])
+        return here != NO_RAY and any(differs(here, x + i, y + j, bool(i and j)) for i in (-1, 0, 1) for j in (-1, 0, 1))
+
+    return [(x, y) for y in range(height) for x in range(width) if at_edge(x, y)]
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -38,6 +40,17 @@ def test_edges_are_found_wherever_they_are(seed: int) -> None:
     few = np.where(random.random((height, width)) < 0.15, patches, random.choice((SKY, NO_RAY, SKY | EdgeMark.VEILED))).astype(np.uint16)
     for marks in (patches.astype(np.uint16), few):
         assert [tuple(pixel) for pixel in at_edges(marks).tolist()] == by_pixel(marks)
+
+
+@pytest.mark.parametrize("slope", np.linspace(-1.0, 1.0, 9))
+def test_a_straight_edge_behind_the_direct_picture_is_found_wherever_it_cuts_a_pixel(slope: float) -> None:
+    """Though pixels that it touches at a corner alone are left out."""
+    y, x = np.mgrid[0:40, 0:40]
+    level = slope * (x - 19.5) + 0.3 - (y - 19.5)
+    marks = (np.where(level > 0.0, SKY, SHADOW) | EdgeMark.VEILED).astype(np.uint16)
+    found = {tuple(pixel) for pixel in at_edges(marks).tolist()}
+    cut = np.abs(level) < 0.5 * (1.0 + abs(slope)) - 1e-9  # of a pixel's corners some lie on either side
+    assert cut.sum() > 30 and {tuple(pixel) for pixel in np.argwhere(cut)[:, ::-1].tolist()} <= found
 
 
 @pytest.mark.parametrize("seed", range(5))
