@@ -21,20 +21,20 @@ layout(location = 1) out uint balls;
 void main() {
     ivec2 first = ivec2(gl_FragCoord.xy);
     uvec2 corner = texelFetch(nodes, first, 0).rg;
-    uint hidden = node_reached(corner).hidden, near_any = 0u, between = 0u;
-    bool alike = true, hides = hidden > 0u;
+    uint holds = node_reached(corner).holds, near_any = 0u, between = 0u;
+    bool alike = true, hides = holds > 0u;
     for (int k = 0; k < 4; ++k) {
         uvec2 node = texelFetch(nodes, first + ivec2(k % 2, k / 2), 0).rg;
         Reached reached = node_reached(node);
         near_any |= reached.near;
         between |= reached.between;
         alike = alike && node_fate(node) == node_fate(corner);
-        hides = hides && reached.hidden == hidden;
+        hides = hides && reached.holds == holds;
     }
     bool clear = alike && between == 0u && node_fate(corner) != UNRESOLVED;
-    hides = hides && between == 1u << (hidden - 1u);
+    hides = hides && between == 1u << (holds - 1u);
     balls = alike && node_fate(corner) != UNRESOLVED ? near_any : (1u << reach_count) - 1u;
-    near = clear ? (near_any == 0u ? REACHED_NONE : REACHED_NEAR) : hides ? float(hidden) / 255.0 : REACHED_ANY;
+    near = clear ? (near_any == 0u ? REACHED_NONE : REACHED_NEAR) : hides ? float(holds) / 255.0 : REACHED_ANY;
 #if REACH_FINER
     float before = texelFetch(found_first, first / 2, 0).r;
     if (before < REACHED_ANY) balls = texelFetch(balls_first, first / 2, 0).r;

@@ -1,7 +1,7 @@
 #version 330 core
 // Coarse rays that meet things → 1 for each cell whose pixels one ball fills and may be interpolated between, else 0: it hides all else from the rays at the corners
-// (reach_cells.frag), the rays at and around the corners all meet it, with no crossing of the disk's plane before it, and what interpolation leaves out (as in
-// refine_nodes.frag) displaces what is seen by less than refine_px.
+// (reach_cells.frag), the rays at the corners and in each row one beside them meet it, with no crossing of the disk's plane before it, and what interpolation leaves out (as
+// in refine_nodes.frag) displaces what is seen by less than refine_px.
 #defines
 #include "common/constants.glsl"
 #include "common/row_error.glsl"
@@ -21,18 +21,24 @@ int thing_of(float met) {
     return (bits >> 5 & 3) == 0 ? (bits & 31) + 32 * (bits >> 8) : -1;
 }
 
-// A row of four nodes, the cell between the middle two: whether all meet `thing`, and the error of interpolation between them.
+// The same where one of the four meets something else, and the second differences of the other three are all that there is: of a root, which is how places go at an
+// outline, a quadratic through three places leaves out as much.
+const float OF_THREE = 1.0 / 8.0;
+
+// A row of four nodes, the cell between the middle two: whether these meet `thing`, and one of the others at least; and the error of interpolation between them.
 bool row_of(ivec2 first, ivec2 step, int thing, out vec3 slope, out vec3 error) {
     vec3 places[4];
-    bool alike = true;
+    bool alike[4];
     for (int k = 0; k < 4; ++k) {
         vec4 node = texelFetch(things_met, first + k * step, 0);
         places[k] = node.xyz;
-        alike = alike && thing_of(node.w) == thing;
+        alike[k] = thing_of(node.w) == thing;
     }
     error = row_error(places);
+    if (!alike[0]) error = OF_THREE * (places[3] - 2.0 * places[2] + places[1]);
+    if (!alike[3]) error = OF_THREE * (places[2] - 2.0 * places[1] + places[0]);
     slope = (places[2] - places[1]) / float(REFINE_STEP);
-    return alike;
+    return alike[1] && alike[2] && (alike[0] || alike[3]);
 }
 
 void main() {

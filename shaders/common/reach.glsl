@@ -6,7 +6,7 @@
 //
 // That margin holds for each ray by itself. Four rays that all miss a ball by less tell as much where it is wider than they are apart: it can come between two of them by
 // no more than its edge bows there, and what is not linear between them. It is then near to none of them, and only the cell between them says whether that can be trusted
-// (refine_cells.frag).
+// (refine_cells.frag). And four rays that are all in a ball, if only by what is not linear, have none between them that is not.
 //
 // A ball that a thing fills hides what lies behind it, once a ray is deeper in it than the margin: the rays beside it are in it, too.
 #include "common/reach_node.glsl"
@@ -109,6 +109,7 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         found.near |= misses <= room ? 1u << i : 0u;
         found.between |= misses - nearer <= between ? 1u << i : 0u;
         found.hidden = far + rough + most < -ball.w ? uint(i + 1) : found.hidden;
+        found.holds = far + rough + (radius > most ? reach_not_linear * most : most) < -ball.w ? uint(i + 1) : found.holds;
     }
     return found;
 }

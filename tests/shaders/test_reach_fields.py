@@ -47,11 +47,11 @@ def test_a_shipped_scene_of_balls_is_interpolated_where_they_are_whole(renderer:
     assert not renderer.hit_map.is_sharp
     own = renderer.hit_map.own_rays()
     shown = ~own & (exact.met[..., 0, 0] >= 0)
-    assert own.mean() < 0.3 and shown.mean() > 0.2  # of a small picture; half of that at 640×360
+    assert own.mean() < 0.25 and shown.mean() > 0.2  # of a small picture; half of that at 640×360
     assert np.count_nonzero(np.any(found.met != exact.met, axis=(-2, -1))) == 0
     moved = _displacement(exact, found)[shown]
-    print(f"{name}: {own.mean():.2f} have rays of their own; displaced by {np.quantile(moved, 0.99):.3f} px at 99 %")
-    assert np.quantile(moved, 0.99) <= scene.rays.tolerance
+    print(f"{name}: {own.mean():.2f} have rays of their own; displaced by {np.quantile(moved, 0.99):.3f} px at 99 %, {np.quantile(moved, 0.999):.3f} at 99.9 %")
+    assert np.quantile(moved, 0.999) <= scene.rays.tolerance
 
 
 # Views whose floor four rays miss by little: on ways that bow towards it between two steps, and where what lies between them is folded.
