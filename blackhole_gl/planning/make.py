@@ -38,6 +38,9 @@ _MARCHED = {"flat": "flat", "schwarzschild": "schwarzschild", "kerr": "kerr"}
 # What tells how long light is under way, in each.
 _TELLING_TIME = {"schwarzschild": "schwarzschild_binet", "kerr": "kerr"}
 
+# Orders by which errors of long steps grow faster than the scheme's, and how many times as long steps in motion may be at most.
+_MORE_ORDERS, _LONGEST_IN_MOTION = 1, 1.5
+
 # Share of the tolerance that interpolation may take; the march's own error at most pixels is far below its share.
 _REFINE_SHARE = 0.8
 
@@ -100,6 +103,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         meetings=meetings,
         reach=reach,
         reach_steps=reach_steps,
+        error_px=choice.stated_error_px(scene) if is_field(scene) and stretch == 1.0 else math.nan,
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) and not scene.disk.tilt_deg else WORLD,
         reasons=tuple(reasons),
@@ -267,6 +271,18 @@ def unfit_options(key: str, scene: Scene) -> dict[str, str]:
 def refine_px(scene: Scene) -> float:
     """Error in pixels that interpolation between exact rays may add in `scene` where its hit map is refined."""
     return _REFINE_SHARE * scene.rays.tolerance
+
+
+def steps_in_motion(plan: Plan, height: int) -> float:
+    """How many times as long steps are under a moving camera, of rays that meet nothing, in a picture `height` pixels high.
+
+    A tolerance is in pixels of a picture 1080 high; one that moves and is drawn with fewer has it in its own. The error grows as a power of the step,
+    and that of long steps faster than by the scheme's order.
+    """
+    if math.isnan(plan.error_px) or plan.integrator is None or plan.step_control is None or plan.step_control.traits.adapts:
+        return 1.0
+    allowed = plan.scene.rays.tolerance * max(choice.PICTURE_HEIGHT / height, 1.0)
+    return min(max(allowed / max(plan.error_px, 1e-9), 1.0) ** (1.0 / (plan.integrator.traits.order + _MORE_ORDERS)), _LONGEST_IN_MOTION)
 
 
 def _refines(scene: Scene, model: PlugIn, made: choice.Choice, reach_steps: int) -> tuple[bool, str]:

@@ -59,6 +59,8 @@ class Plan:
         meetings: how many of the scene's things and media are kept of each ray, 0 where there are none.
         reach: radius in r_s beyond which there is none of them.
         reach_steps: steps in which coarse rays tell where in a picture the things and media can be seen; 0: that is not known, and they may be anywhere.
+        error_px: that of the march in a field at 99 % of the rays, by the chart, in pixels of a picture 1080 high; NaN where it was not measured, and
+            about holes.
         refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
         frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
             which turns about the axis keeps its hits, where all that bends rays and that they meet is symmetric about the axis; else the ``world``.
@@ -82,6 +84,7 @@ class Plan:
     meetings: int
     reach: float
     reach_steps: int
+    error_px: float
     refine_px: float
     frame: Frame
     reasons: tuple[str, ...]

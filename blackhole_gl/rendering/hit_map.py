@@ -299,16 +299,18 @@ class HitMap:
             if reached.fills and inputs.plan.meetings == 1:
                 self._bind_tables(rays)
                 solid = self._things.trace(rays, reached)
-            coarse = self._programs.get("trace.frag", inputs, NO_THINGS)
+            coarse = self._programs.get("trace.frag", inputs.in_motion(), NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, solid)
             if solid is not None:
                 self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
             self._trace_own_rays(coarse, rays)
         else:
-            self._grid.trace(rays, None)
-            self._trace_own_rays(rays, None)
-        self._refined_for, self._sharp_rows = _refined_for(rays.inputs), 0
+            coarse = self._programs.get("trace.frag", inputs.in_motion())
+            self._bind_tables(coarse)
+            self._grid.trace(coarse, None)
+            self._trace_own_rays(coarse, None)
+        self._refined_for, self._sharp_rows = _refined_for(inputs), 0
         self.marched += self._grid.marched + (self._half.marched if self._halved else self._grid.left)
 
     def _trace_own_rays(self, rays: Draw, seeking: Draw | None) -> None:

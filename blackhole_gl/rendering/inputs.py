@@ -8,7 +8,7 @@ from functools import cached_property
 
 import moderngl
 
-from ..planning import Plan
+from ..planning import Plan, steps_in_motion
 from . import uniforms
 
 
@@ -48,6 +48,15 @@ class FrameInputs:
     def with_plan(self, plan: Plan) -> FrameInputs:
         """The same frame by another plan."""
         return replace(self, plan=plan)
+
+    def in_motion(self) -> FrameInputs:
+        """The same frame by steps as long as they may be under a moving camera."""
+        times = steps_in_motion(self.plan, self.picture[1])
+        if times == 1.0:
+            return self
+        made = replace(self)
+        made.__dict__["blocks"] = {**self.blocks, **uniforms.in_longer_steps(self.plan, self.picture, self.offset, times)}
+        return made
 
     def drawn_as(self, size: tuple[int, int]) -> FrameInputs:
         """The same picture's rays, drawn into `size` pixels: the uniform blocks are the same ones."""

@@ -255,4 +255,9 @@ def _without_time(plan: Plan, picture: tuple[int, int], offset: tuple[float, flo
     return made
 
 
+def in_longer_steps(plan: Plan, picture: tuple[int, int], offset: tuple[float, float], times: float) -> dict[str, bytes]:
+    """The packed block of rays by its name, for steps so many times as long as the plan's."""
+    return {ray_block().name: ray_block().pack({**ray_values(plan, picture, offset), "plan_step_length": times * plan.step_length})}
+
+
 _last_without_time: tuple[tuple[bytes, bytes], tuple[Plan, tuple[int, int], tuple[float, float]]] | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.planning import plan
+from blackhole_gl.planning import plan, steps_in_motion
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.frame_met import FrameMet
 from blackhole_gl.rendering.half_grid import narrow_balls
@@ -47,7 +47,7 @@ def test_most_of_an_explosion_is_interpolated_and_displaced_by_less_than_the_tol
     print(f"{own.mean():.3f} have rays of their own; displaced by {np.quantile(moved, 0.99):.3f} px at 99 %")
     assert np.quantile(moved, 0.99) <= scene.rays.tolerance
     np.testing.assert_array_equal(found.fate, exact.fate)
-    np.testing.assert_array_equal(found.direction[own], exact.direction[own])
+    assert np.quantile(moved[own], 0.99) <= scene.rays.tolerance  # of longer steps alone
 
 
 def test_balls_behind_a_shock_wave_are_where_they_are_and_fewer_pixels_have_rays_of_their_own(renderer: Renderer) -> None:
@@ -69,6 +69,19 @@ def test_no_place_on_a_mesh_is_interpolated_between_its_near_and_its_far_part(re
     elsewhere = np.count_nonzero(error[both & ~own] > strand)
     print(f"{own.mean():.3f} have rays of their own; {elsewhere} of {np.count_nonzero(both & ~own)} interpolated are elsewhere")
     assert elsewhere == 0
+
+
+def test_steps_are_longer_in_motion_where_a_march_through_a_field_errs_by_less_than_the_picture_s_own_pixels() -> None:
+    """The explosion's errs by a quarter of a pixel of 1080 at steps of 0.3; twice as long ones by ten of them at 640×360."""
+    made = plan(presets.load(["explosion"]))
+    coarse, fine = steps_in_motion(made, 360), steps_in_motion(made, 1080)
+    assert 1.2 < coarse < 1.5 and 1.0 < fine < coarse and steps_in_motion(made, 2160) == fine
+    for name, values in (
+        ("knot_behind_a_hole", {}),
+        ("explosion", {"rays.step_length": 0.7, "rays.integrator": "nystrom5"}),
+        ("explosion", {"rays.refraction.size": 4.0}),
+    ):
+        assert steps_in_motion(plan(presets.load([name], values)), 360) == 1.0, "not measured, or no field"
 
 
 @pytest.mark.parametrize("name", ["explosion", "knot_behind_a_hole"])
