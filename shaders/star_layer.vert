@@ -98,10 +98,14 @@ vec4 gram_of(vec3 right, vec3 up) {
 }
 
 Hits hits_beside(ivec2 here, ivec2 step) {
-    ivec2 there = here + step;
+    ivec2 there = here + step, size = textureSize(radiance, 0);
+#if TURNED
+    return fetch_escape((there + size) % size);  // it is kept in a ring
+#else
     Hits hits = fetch_escape(there);
-    if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, textureSize(radiance, 0)))) hits.fate = UNRESOLVED;
+    if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, size))) hits.fate = UNRESOLVED;
     return hits;
+#endif
 }
 
 // A star that a pixel may hold.
@@ -193,6 +197,9 @@ void main() {
     stretch = 0.25 * inverse_of(spread, spread_det);
     brightest = light * abs(texelFetch(radiance, here, 0).a) / (3.1415927 * sqrt(spread_det * gram.w));
 #if POST_BLOOM
+#if TURNED
+    point_at = unrolled(point_at);
+#endif
     vec2 at_glow = point_at / vec2(textureSize(radiance, 0));
     glowing = post_bloom_intensity * textureLod(glow, at_glow * glow_window.xy + glow_window.zw, 0.0).rgb;
 #else

@@ -5,9 +5,9 @@
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30), look (the view alone turns to the right). Each goes on for `--settle` seconds before frames count, the first of them
-not before the scene's own programs are there. A figure stands for the machine and its screen together: on a display with vertical synchronisation no frame is
-shorter than the screen's.
+out to 30), look (the view alone turns to the right), glance (the view turns for two seconds, rests for two, and turns back). Each goes on for `--settle`
+seconds before frames count, the first of them not before the scene's own programs are there. A figure stands for the machine and its screen together: on a
+display with vertical synchronisation no frame is shorter than the screen's.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from blackhole_gl.scene import presets
 ORBIT_DEG = (60.0, 100.0)
 ZOOM_RS = (6.0, 30.0)
 LOOK = 0.5  # of a stick's whole way
+GLANCE_S = 2.0
 
 
 class Swing:
@@ -49,11 +50,20 @@ def motions() -> dict[str, Callable[[WindowState], Collection[str]]]:
     tilt = Swing(lambda state: state.scene.camera.inclination_deg, ORBIT_DEG, "orbit_down", "orbit_up")
     return {
         "rest": lambda state: (),
-        "look": lambda state: (),  # with a stick: see `Conductor.leads`
+        "look": lambda state: (),  # with a stick: see `look_of`
+        "glance": lambda state: (),
         "turn": lambda state: ("orbit_right",),
         "orbit": lambda state: (*tilt(state), "orbit_right"),
         "zoom": Swing(lambda state: state.scene.camera.distance, ZOOM_RS, "zoom_out", "zoom_in"),
     }
+
+
+def look_of(motion: str, clock_s: float) -> float:
+    """How far a stick is pushed to the right, by the window's clock."""
+    if motion == "glance":
+        turn, within = divmod(clock_s / GLANCE_S, 2.0)
+        return 0.0 if within >= 1.0 else LOOK if turn % 2.0 == 0.0 else -LOOK
+    return LOOK if motion == "look" else 0.0
 
 
 @dataclass
@@ -98,7 +108,7 @@ class Conductor:
     def leads(self, state: WindowState, hand: commands.Hand, dt: float) -> commands.Hand:
         """What the hand does in this frame, `dt` seconds long."""
         held = replace(hand, held=self.hold(state))
-        return held.turned((LOOK, 0.0), dt) if self._run is not None and self._run.motion == "look" else held
+        return held if self._run is None else held.turned((look_of(self._run.motion, state.clock), 0.0), dt)
 
     def saw(self, shown: picture.Picture) -> None:
         """A picture was drawn."""

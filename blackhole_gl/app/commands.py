@@ -80,7 +80,8 @@ def advance(state: WindowState, hand: Hand, dt: float, slept: float = 0.0) -> No
         if target.reach != wanted.reach:
             state.say(_STOPPED[wanted.reach > target.reach])
     state.move_camera(state.motion.advanced(target, dt))
-    if any(hand.look):
+    state.looks = any(hand.look)
+    if state.looks:
         look(state, *hand.look)
     fly(state, hand, dt)
     if state.timeline.plays:

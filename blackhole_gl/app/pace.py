@@ -16,7 +16,7 @@ class Pace:
         self._begun: float | None = None  # when the last picture of this movement was begun, in seconds
         self._took_ms = 0.0
 
-    def scale(self, playback: Playback, now: float, *, moving: bool, camera_moving: bool) -> float:
+    def scale(self, playback: Playback, now: float, *, moving: bool, camera_moving: bool, turns: bool = False) -> float:
         """Width and height of the picture begun `now` [s] over those of its area, at most 1; the rest is as for `Resolution.scale`."""
         if not moving:
             self.pause()
@@ -27,7 +27,7 @@ class Pace:
             elapsed = now - self._begun
             self._resolution.record_rest(1e3 * elapsed - self._took_ms)
         self._begun = now
-        return self._resolution.scale(playback.target_fps, camera_moving=camera_moving, elapsed=elapsed, least=playback.coarsest)
+        return self._resolution.scale(playback.target_fps, camera_moving=camera_moving, turns=turns, elapsed=elapsed, least=playback.coarsest)
 
     def pause(self) -> None:
         """The time until the next picture says nothing."""

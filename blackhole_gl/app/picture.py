@@ -124,7 +124,8 @@ class Picture:
         step = self._readiness.step(scene, now)
         if step is None:
             return False
-        scale = COARSEST if step.rehearses else self._pace.scale(scene.playback, now, moving=moving, camera_moving=camera_moving)
+        turns = camera_moving and self.is_current and self.renderer.turns(scene)
+        scale = COARSEST if step.rehearses else self._pace.scale(scene.playback, now, moving=moving, camera_moving=camera_moving, turns=turns)
         progressive = step.rehearsal
         if progressive is None:
             progressive = camera_moving or not (exact or self.is_current and self.is_sharp)

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from enum import Enum
 from statistics import median, median_low
 
 STEPS_PER_OCTAVE = 8
@@ -20,6 +21,15 @@ STEPS_PER_OCTAVE = 8
 
 COARSEST = 0.25
 """The least scale under a moving camera where a scene says nothing else (``playback.coarsest``)."""
+
+
+class _Kind(Enum):
+    """What moves in a picture, and so what it costs."""
+
+    TIME = 0
+    LOOK = 1
+    """The camera's look alone: light is kept by direction."""
+    CAMERA = 2
 
 
 def coarsest(least: float, *, camera_moving: bool) -> float:
@@ -35,7 +45,8 @@ PIXELS_SHARE = 1.0 / 6.0
 back: they would blur the picture for a gain that nobody sees."""
 
 # Steps between glide and step at which the step is left: well above 0.5, so that noise does not make it hop. A resting picture must trace all its rays anew.
-_LEAVE = {True: 0.9, False: 2.0}
+# So must light by direction.
+_LEAVE = {_Kind.CAMERA: 0.9, _Kind.LOOK: 2.0, _Kind.TIME: 2.0}
 _GLIDE_S = 0.25  # time constant of the glide: a moment, and longer than a frame
 _SETTLING_S = 8.0 * _GLIDE_S  # a movement's step is found then, whatever the noise: e⁻⁸ of the longest glide is less than a hundredth of a step
 _MOST_OTHER = 0.5  # of a frame that is not the picture's: waiting for the screen cannot be told from work, and would keep pictures coarse
@@ -72,14 +83,14 @@ class Resolution:
 
     def __init__(self) -> None:
         # Of moving cameras' pictures, with those at rest that trace as they do; and of others, which save more than the trace: their sky is kept too.
-        self._costs = {moving: deque[_Cost](maxlen=_REMEMBERED) for moving in (True, False)}
+        self._costs = {kind: deque[_Cost](maxlen=_REMEMBERED) for kind in _Kind}
         self._constants: deque[float] = deque(maxlen=_ESTIMATES)
         self._cheapest = math.inf  # median cost of a few pictures that followed each other, in milliseconds
         self._other_ms: deque[float] = deque(maxlen=_REMEMBERED)
-        self._step = {True: 0, False: 0}  # below full size, the camera moving or not
+        self._step = dict.fromkeys(_Kind, 0)  # below full size
         self._glide = 0.0  # steps below full size, of the movement that goes on
         self._lasted = 0.0  # seconds that it has gone on
-        self._camera_moved: bool | None = None
+        self._kind: _Kind | None = None  # of the last picture
 
     @property
     def constant_ms(self) -> float:
@@ -92,8 +103,11 @@ class Resolution:
 
     def record(self, scale: float, milliseconds: float, *, traced: bool) -> None:
         """Takes in what a picture at `scale` cost."""
-        cost = _Cost(scale**2, milliseconds, traced, at_rest=not self._camera_moved)
-        known = self._costs[traced or not cost.at_rest]  # a camera that turns about the axis keeps its rays and moves
+        cost = _Cost(scale**2, milliseconds, traced, at_rest=self._kind not in (_Kind.CAMERA, _Kind.LOOK))
+        if self._kind is _Kind.LOOK and not traced:
+            self._costs[_Kind.LOOK].append(cost)
+            return
+        known = self._costs[_Kind.CAMERA if traced or not cost.at_rest else _Kind.TIME]  # a camera that turns about the axis keeps its rays and moves
         found = [cost.constant(other) for other in known if cost.is_comparable(other)]
         if found:
             self._constants.append(median(found))
@@ -107,32 +121,36 @@ class Resolution:
 
     def rest(self) -> None:
         """Nothing moves: what moves next begins a movement of its own."""
-        self._camera_moved = None
+        self._kind = None
 
-    def scale(self, target_fps: float, *, camera_moving: bool, elapsed: float, least: float = COARSEST) -> float:
+    def scale(self, target_fps: float, *, camera_moving: bool, elapsed: float, least: float = COARSEST, turns: bool = False) -> float:
         """The scale of the next picture, at most 1.
 
         Args:
             target_fps: the frame rate aimed at; 0 for none: always full size.
-            camera_moving: whether rays have to be traced anew.
+            camera_moving: whether the camera moves.
+            turns: whether that is no more than a look, for which rays need not be traced anew.
             elapsed: seconds since the last picture.
             least: the least scale under a moving camera.
         """
-        goes_on, self._camera_moved = camera_moving == self._camera_moved, camera_moving
+        kind = _Kind.TIME if not camera_moving else _Kind.LOOK if turns else _Kind.CAMERA
+        goes_on, self._kind = kind is self._kind, kind
         if target_fps <= 0.0:
             return 1.0
-        constant = self.constant_ms if camera_moving else 0.0  # not known of pictures that keep their rays
+        constant = self.constant_ms if kind is _Kind.CAMERA else 0.0  # not known of pictures that keep their rays
         budget = self._budget(target_fps, camera_moving, constant)
         lowest = -STEPS_PER_OCTAVE * math.log2(coarsest(least, camera_moving=camera_moving))
-        wanted = min(max(self._wanted(budget, camera_moving, constant), 0.0), lowest)
+        wanted = min(max(self._wanted(budget, kind, constant), 0.0), lowest)
+        if kind is _Kind.LOOK and not goes_on:
+            self._step[kind] = self._step[_Kind.TIME]  # the picture at rest does not hop when it begins to turn
         # When a movement begins its cost is known from the last one, so the first picture takes what fits at once.
         self._glide = wanted + (self._glide - wanted) * math.exp(-elapsed / _GLIDE_S) if goes_on else wanted
         self._lasted = self._lasted + elapsed if goes_on else 0.0
         # The less of a picture's cost is its pixels', the more steps the noise of the whole is worth, and the less a step changes the frame's time.
-        leave = _LEAVE[camera_moving] * (1.0 + constant / budget if self._lasted > _SETTLING_S else 1.0)
-        if abs(self._glide - self._step[camera_moving]) > leave:
-            self._step[camera_moving] = round(self._glide)
-        return 2.0 ** (-self._step[camera_moving] / STEPS_PER_OCTAVE)
+        leave = _LEAVE[kind] * (1.0 + constant / budget if self._lasted > _SETTLING_S else 1.0)
+        if abs(self._glide - self._step[kind]) > leave:
+            self._step[kind] = round(self._glide)
+        return 2.0 ** (-self._step[kind] / STEPS_PER_OCTAVE)
 
     def _budget(self, target_fps: float, camera_moving: bool, constant: float) -> float:
         """Milliseconds that the pixels of a picture may cost."""
@@ -141,12 +159,14 @@ class Resolution:
         fixed = constant + min(min(self._other_ms, default=0.0), _MOST_OTHER * frame)
         return max(frame - fixed, PIXELS_SHARE * fixed)
 
-    def _wanted(self, budget: float, camera_moving: bool, constant: float) -> float:
+    def _wanted(self, budget: float, kind: _Kind, constant: float) -> float:
         """Steps below full size that `budget` [ms] asks for."""
-        known = self._costs[camera_moving]
-        if camera_moving and not known:
+        known = self._costs[kind]
+        if kind is _Kind.LOOK and len(known) < _REMEMBERED // 2:
+            known = self._costs[_Kind.TIME]  # dearer by a quarter
+        if kind is _Kind.CAMERA and not known:
             return math.inf  # a coarse picture comes sooner
-        if not camera_moving and len(known) < 2:
+        if kind is not _Kind.CAMERA and len(known) < 2:
             return 0.0  # the first picture with kept rays also keeps its sky, and says little of what the next will cost
         rate = median_low(max(cost.milliseconds - constant, _LEAST_OF_PIXELS * cost.milliseconds, 1e-6) / cost.pixels for cost in known)
         return 0.5 * STEPS_PER_OCTAVE * math.log2(rate / budget)

@@ -44,6 +44,7 @@ class WindowState:
         scene: the scene shown now.
         home: the scene as the presets in force or the opened file have it, which resets go back to.
         motion: the camera on its way. flight: how it flies by hand. timeline: the flight that it follows.
+        looks: whether the hand turned the view in this frame.
         chosen: preset group → name of the preset in force.
         history: what can be undone and redone.
         time: scene time in r_s/c.
@@ -70,6 +71,7 @@ class WindowState:
     clock: float = 0.0
     paused: bool = False
     dragging: bool = False
+    looks: bool = False
     flight: FreeFlight = FreeFlight()
     timeline: Timeline = Timeline()
     holes: dict[bool, Mapping[str, Any]] = field(default_factory=dict)
@@ -210,7 +212,7 @@ class WindowState:
     @property
     def camera_moves(self) -> bool:
         """Whether the camera is on its way or under the hand."""
-        return self.dragging or self.timeline.plays or not (self.motion.at_rest and self.flight.at_rest)
+        return self.dragging or self.looks or self.timeline.plays or not (self.motion.at_rest and self.flight.at_rest)
 
     @property
     def is_moving(self) -> bool:

@@ -137,6 +137,7 @@ class Targets:
             *(drawing.scene, drawing.time, drawing.size),
             measure=True,
             progressive=drawing.progressive,
+            may_turn=drawing.progressive,
             glow_may_last=drawing.passes,
         )
         if drawing.size == drawing.shown:

@@ -36,7 +36,9 @@ class WarmUp:
         Only the first draw makes a driver finish its work, and llvmpipe does so anew for sizes that are powers of two: `size` should be the window's.
         """
         self.start()
-        return self._worker.submit(_draw, scene, size)
+        drawn = self._worker.submit(_draw, scene, size)
+        self._worker.submit(_turn, scene, size)  # nothing waits for that
+        return drawn
 
     def close(self) -> None:
         """Ends the process; what it is at is thrown away."""
@@ -62,6 +64,25 @@ def _draw(scene: Scene, size: tuple[int, int]) -> None:
             renderer.render(scene, time, size, measure=True, progressive=progressive, glow_may_last=time > 0.0, shown=shown)
             renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         _draw_media(renderer, scene, size)
+        renderer.programs.release()
+        renderer.hit_map.forget()
+    enlarged.release()
+    clock.sleep(_UNTIL_WRITTEN_S)
+
+
+def _turn(scene: Scene, size: tuple[int, int]) -> None:
+    """Draws `scene` as its view turns, where that is drawn by programs of its own."""
+    renderer = _shared()
+    shown = 2 * size[0], 2 * size[1]
+    enlarged = Target.of(renderer.ctx, [renderer.ctx.texture(shown, 4)])
+    yaw = scene.camera.yaw_deg
+    for _ in range(2):
+        renderer.render(scene, 0.0, size, progressive=True, shown=shown)
+        turned = scene.with_values({"camera.yaw_deg": yaw + 1.0 if yaw < 0.0 else yaw - 1.0})
+        if not renderer.turns(turned):
+            break
+        renderer.render(turned, 0.0, size, progressive=True, shown=shown, may_turn=True)
+        renderer.draw_stars(enlarged.frame, (0, 0, *shown))
         renderer.programs.release()
         renderer.hit_map.forget()
     enlarged.release()

@@ -14,14 +14,14 @@ import numpy as np
 from ..physics import projection
 from ..physics.observer import look_rotation
 from ..scene import Camera
-from ..shapes import Bool, Float
+from ..shapes import Bool, Float, Int
 from .boxes import Box
 
 CELL = 16
 """Pixels along each side of the squares that a grid is known by."""
 
-# Of a view: its middle may stand so far from the grid's equator, where a pixel is narrower by a twelfth; and nothing of it nearer to a pole than that.
-_MIDDLE_WITHIN_DEG, _ALL_WITHIN_DEG = 22.0, 75.0
+# Of a view: its middle may stand so far from the grid's equator, where a pixel is narrower by a seventh; and nothing of it nearer to a pole than that.
+_MIDDLE_WITHIN_DEG, _ALL_WITHIN_DEG = 30.0, 75.0
 _TILT_DEG = 12.0  # from there on a grid is rolled and pitched as the view, so that its box holds little else
 
 _ON_A_SIDE = 33  # places at which a view's border is looked at: its middle is one
@@ -82,7 +82,8 @@ class View:
 
 @dataclass(frozen=True)
 class DirectionGrid:
-    """A part of the equirectangular picture of all directions.
+    """A part of the equirectangular picture of all directions, kept in textures of its size as in a ring both ways: a pixel of the whole lies where it lay when
+    the part moves, and what comes in takes the place of what goes out.
 
     Attributes:
         axes: rotation (3, 3) from that picture's (back, down, right) to the observer's frame.
@@ -90,6 +91,7 @@ class DirectionGrid:
         rows: of the whole picture, which has twice as many columns.
         corner: column and row of the whole picture at which the part begins.
         size: (width, height) of the part, whole numbers of `CELL`.
+        start: column and row in the textures, whole numbers of `CELL`, of the part's first pixel.
     """
 
     axes: Float[np.ndarray, "3 3"]
@@ -99,11 +101,12 @@ class DirectionGrid:
     rows: int
     corner: tuple[int, int]
     size: tuple[int, int]
+    start: tuple[int, int] = (0, 0)
 
     @classmethod
-    def about(cls, camera: Camera, view: View, finer: float, margin: tuple[float, float]) -> DirectionGrid | None:
-        """One that holds the `view` of `camera` and `margin` of its width and height more on each side, its pixels `finer` times as many along each axis as in
-        the view's middle; None where the view is too wide for one."""
+    def about(cls, camera: Camera, view: View, finer: float, margin: float, least: int = 0) -> DirectionGrid | None:
+        """One that holds the `view` of `camera` and `margin` of its width and height more on each side, `least` pixels at that. Its pixels are `finer` times as
+        many along each axis as in the view's middle. None where the view is too wide for one."""
         tilted = abs(camera.pitch_deg) > _TILT_DEG or abs(camera.roll_deg) > _TILT_DEG
         pitch, roll = (camera.pitch_deg, camera.roll_deg) if tilted else (0.0, 0.0)
         rows = 2 * round(0.5 * math.pi * finer / view.pixel)
@@ -112,9 +115,8 @@ class DirectionGrid:
         if not whole.can_show(view):
             return None
         (x, y, width, height), across = whole.box(view), tuple(2 * rows // side for side in (1, 2))
-        low = [max(int(first - share * side), 0) for first, share, side in ((x, margin[0], width), (y, margin[1], height))]
-        sides = (x, margin[0], width, across[0]), (y, margin[1], height, across[1])
-        high = [min(int(first + (1.0 + share) * side), most) for first, share, side, most in sides]
+        low = [max(int(first - max(margin * side, least)), 0) for first, side in ((x, width), (y, height))]
+        high = [min(int(first + side + max(margin * side, least)), most) for first, side, most in ((x, width, across[0]), (y, height, across[1]))]
         return cls(whole.axes, whole.yaw_deg, pitch, roll, rows, (low[0], low[1]), (_cells(high[0] - low[0]), _cells(high[1] - low[1])))
 
     @property
@@ -145,29 +147,38 @@ class DirectionGrid:
         wide = math.atan(math.hypot(*view.half))
         return bool(abs(middle) < math.radians(_MIDDLE_WITHIN_DEG) and max(wide, np.abs(border).max()) < math.radians(_ALL_WITHIN_DEG))
 
-    def moved_to(self, view: View) -> DirectionGrid | None:
-        """One of the same pixels, and as large, in whose middle `view` lies, moved by whole cells; None where that goes beyond a pole, or half round a grid
-        that is tilted."""
-        x, y, width, height = self.box(view)
-        columns, rows = (round((first + 0.5 * (side - most)) / CELL) * CELL for first, side, most in zip((x, y), (width, height), self.size))
-        corner, turned = (self.corner[0] + columns, self.corner[1] + rows), self
+    def moved_to(self, view: View, beside: int) -> tuple[DirectionGrid, Bool[np.ndarray, "rows columns"]] | None:
+        """One of the same pixels, and as large, that holds `view` and, but for the poles, so many pixels `beside` it, moved by as few cells as that takes; and
+        which cells of the textures both hold. None where there is none: about a pole, or half round a grid that is tilted."""
+        columns, rows = (_step(first - beside, side + 2 * beside, most) for first, side, most in zip(self.box(view)[:2], self.box(view)[2:], self.size))
+        rows = min(max(rows, -(self.corner[1] // CELL) * CELL), (self.rows - self.size[1] - self.corner[1]) // CELL * CELL)
+        start = (self.start[0] + columns) % self.size[0], (self.start[1] + rows) % self.size[1]
+        moved = replace(self, corner=(self.corner[0] + columns, self.corner[1] + rows), start=start)
         if not self.pitch_deg and not self.roll_deg:  # longitude 0 goes along
             yaw = (self.yaw_deg + columns * math.degrees(self.pixel) + 180.0) % 360.0 - 180.0
-            corner = self.corner[0], self.corner[1] + rows
-            turned = replace(self, yaw_deg=yaw, axes=look_rotation(Camera(yaw_deg=yaw)))
-        low = min(max(corner[1], 0), (self.rows - self.size[1]) // CELL * CELL)
-        moved = replace(turned, corner=(corner[0], corner[1] + CELL * round((low - corner[1]) / CELL)))
-        return moved if 0 <= moved.corner[0] <= 2 * self.rows - self.size[0] and moved.corner[1] >= 0 and moved.holds(view) else None
+            moved = replace(moved, yaw_deg=yaw, axes=look_rotation(Camera(yaw_deg=yaw)), corner=(self.corner[0], moved.corner[1]))
+        if not (0 <= moved.corner[0] <= 2 * self.rows - self.size[0] and moved.corner[1] >= 0 and moved.holds(view)):
+            return None
+        across, up = ((places >= step // CELL) & (places < step // CELL + len(places)) for places, step in zip(self._ring_cells, (columns, rows)))
+        return moved, up[:, None] & across
 
-    def holds(self, view: View) -> bool:
-        """Whether all of `view` lies in it."""
+    def is_level_with(self, view: View) -> bool:
+        """Whether the middle of `view` is so near to its equator that another grid would not have it much nearer."""
+        return abs(math.asin(-float((self.axes.T @ -view.look[:, 0])[1]))) < math.radians(_TILT_DEG + 1.0)
+
+    def holds(self, view: View, beside: int = 0) -> bool:
+        """Whether all of `view` lies in it, and so many pixels `beside` that."""
         x, y, width, height = self.box(view)
-        beside = zip((x, y), (width, height), self.size)
-        return self.can_show(view) and all(first >= 0 and first + side <= size for first, side, size in beside)
+        sides = zip((x, y), (width, height), self.size)
+        return self.can_show(view) and all(first >= beside and first + side <= size - beside for first, side, size in sides)
 
     def seen(self, view: View, beside: float = 0.0) -> Bool[np.ndarray, "rows columns"]:
-        """Which of its cells hold anything that `view` shows, or that lies within so many pixels `beside` it."""
+        """Which cells of the textures hold anything that `view` shows, or that lies within so many pixels `beside` it."""
         return view.shows(self._cell_directions, (0.72 * CELL + _BEYOND + beside) * self.pixel)
+
+    def ahead(self, view: View) -> Float[np.ndarray, "rows columns"]:
+        """Cosine of the angle between each cell of the textures and the middle of `view`."""
+        return self._cell_directions @ -view.look[:, 0]
 
     def from_plane(self, view: View, box: Box) -> tuple[tuple[float, ...], tuple[float, float, float, float]]:
         """How a picture of `view` finds what it shows in the part `box`.
@@ -190,12 +201,25 @@ class DirectionGrid:
         found = np.diag([1.0 / view.half[0], 1.0 / view.half[1], 1.0]) @ _FROM_SCREEN.T @ view.look.T @ self.axes
         return tuple(found.T.ravel().tolist())
 
+    @property
+    def _ring_cells(self) -> tuple[Int[np.ndarray, " columns"], Int[np.ndarray, " rows"]]:
+        """Column and row in the part of each column and row of cells in the textures."""
+        across, up = ((np.arange(side // CELL) - start // CELL) % (side // CELL) for side, start in zip(self.size, self.start))
+        return across, up
+
     @cached_property
     def _cell_directions(self) -> Float[np.ndarray, "rows columns 3"]:
-        columns, rows = (np.arange(side // CELL) * CELL + 0.5 * CELL for side in self.size)
+        columns, rows = (CELL * places + 0.5 * CELL for places in self._ring_cells)
         right, up = (columns + self.corner[0] - self.rows) * self.pixel, (rows + self.corner[1] - 0.5 * self.rows) * self.pixel
         right, up = np.meshgrid(right, up)
         return np.stack([-np.cos(up) * np.cos(right), -np.sin(up), np.cos(up) * np.sin(right)], axis=-1) @ self.axes.T
+
+
+def _step(first: int, side: int, most: int) -> int:
+    """By how many pixels, whole cells of them, a part of `most` is to move for `side` pixels from the place `first` in it on to lie within."""
+    if first < 0:
+        return first // CELL * CELL
+    return -(-max(first + side - most, 0) // CELL) * CELL
 
 
 def _cells(pixels: int) -> int:

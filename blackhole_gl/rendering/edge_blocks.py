@@ -35,11 +35,11 @@ class EdgeBlocks:
     seeking: Bool[np.ndarray, " pixels"]
 
     @classmethod
-    def of(cls, pixels: Int[np.ndarray, "pixels 2"], seeking: Bool[np.ndarray, " pixels"]) -> EdgeBlocks:
-        """Blocks for `pixels`, one after the other, those `seeking` first."""
+    def of(cls, pixels: Int[np.ndarray, "pixels 2"], seeking: Bool[np.ndarray, " pixels"], *, room: int = 0) -> EdgeBlocks:
+        """Blocks for `pixels`, one after the other, those `seeking` first; with `room` for so many at least."""
         numbers = np.empty(len(pixels), int)
         numbers[np.argsort(~seeking, kind="stable")] = np.arange(len(pixels))
-        return cls(pixels, numbers, _rows_for(len(pixels)), seeking)
+        return cls(pixels, numbers, _rows_for(max(len(pixels), room)), seeking)
 
     @property
     def size(self) -> tuple[int, int]:

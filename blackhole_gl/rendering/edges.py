@@ -30,6 +30,8 @@ from .temperatures import TemperatureProfile
 # screen's along each, in a picture that is drawn so coarse: it has fewer of them, and a ring that is a few hundredths of one wide would be a row of beads.
 _MOVING_SIDE, _COARSE_SIDE, _COARSE = 2, 4, 2.5
 
+_EDGES = 0.01  # share of the pixels of a map that is extended for which there is room at first: with too little all rays would be traced again
+
 _NO_BLOCK = 0xFFFF
 
 
@@ -74,14 +76,7 @@ class EdgeRays:
             motion: where anything moves fewer rays will do, as for every map that is not sharp; and where the camera does, one at plain outlines of things.
             media: those that are marched apart from the rest, if any are.
         """
-        motion = motion if hit_map.is_sharp else Motion.CAMERA
-        side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=motion > Motion.NOTHING)
-        plan = inputs.plan
-        key = (hit_map.generation, side, motion, inputs.size, plan.orders, plan.disk_edge, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
-        if key != self._key:
-            changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
-            self._trace(inputs, hit_map, side, changed, motion)
-            self._key = key
+        self.trace(inputs, hit_map, motion=motion)
         if self._blocks is None or self._radiance is None or self._places is None:
             return
         size = self._blocks.size
@@ -91,6 +86,17 @@ class EdgeRays:
         resolve.sample({"block_radiance": self._radiance.texture, "block_of_pixel": self._places.block_of_pixel})
         self._places.frame(target).use()
         resolve.draw_squares(self._places.squares)
+
+    def trace(self, inputs: FrameInputs, hit_map: HitMap, *, motion: Motion = Motion.NOTHING) -> None:
+        """Traces the rays that `draw` of the same would, where they are not known yet."""
+        motion = motion if hit_map.is_sharp else Motion.CAMERA
+        side = _side(inputs.plan.scene.rays.edges, min(inputs.finer), moving=motion > Motion.NOTHING)
+        plan = inputs.plan
+        key = (hit_map.generation, side, motion, inputs.size, plan.orders, plan.disk_edge, plan.disk_outer, plan.scene.disk.compositing, hides(plan.scene))
+        if key != self._key:
+            changed = hit_map.changed_since(self._key[0]) if self._key is not None and self._key[1:] == key[1:] else None
+            self._trace(inputs, hit_map, side, changed, motion)
+            self._key = key
 
     @property
     def rays_a_pixel(self) -> int:
@@ -117,6 +123,14 @@ class EdgeRays:
                 item.release()
         self._texture, self._radiance, self._places, self._blocks, self._key, self._held = None, None, None, None, None, None
 
+    def prepare(self, size: tuple[int, int]) -> _Places:
+        """Makes what tells where in a picture of `size` pixels at edges are, unless it is there."""
+        if self._places is None or self._places.size != size:
+            if self._places is not None:
+                self._places.release()
+            self._places = _Places(self._ctx, size)
+        return self._places
+
     def _trace(self, inputs: FrameInputs, hit_map: HitMap, side: int, changed: Squares | None, motion: Motion) -> None:
         """Finds the pixels at edges, and traces `side`² rays of each, those that stand outside `changed` alone left out; none where that is one.
 
@@ -129,19 +143,15 @@ class EdgeRays:
         pixels, seeking = self._found(inputs, hit_map, before, changed, motion)
         if not len(pixels):
             return
-        if self._places is None or self._places.size != inputs.size:
-            if self._places is not None:
-                self._places.release()
-            self._places = _Places(self._ctx, inputs.size)
+        places = self.prepare(inputs.size)
         found = before.after(pixels, seeking, changed, inputs.size) if before is not None and changed is not None else None
-        self._held, fresh = (EdgeBlocks.of(pixels, seeking), np.ones(len(pixels), bool)) if found is None else found
-        self._places.write(pixels, self._held.places)
+        room = 0 if hit_map.parts is None else max(2 * len(pixels), int(_EDGES * inputs.size[0] * inputs.size[1]))
+        self._held, fresh = (EdgeBlocks.of(pixels, seeking, room=room), np.ones(len(pixels), bool)) if found is None else found
+        places.write(pixels, self._held.places)
         self._blocks = self._blocks_of(self._held, side)
         self._map.trace_blocks(inputs, self._blocks, self._held.fresh(fresh, side, all_new=found is None), hit_map.known)
 
-    def _found(
-        self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks | None, changed: Squares | None, motion: Motion
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def _found(self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks | None, changed: Squares | None, motion: Motion) -> tuple[np.ndarray, np.ndarray]:
         """The pixels at edges, and which have rays that look for things: those `before` wherever none of the squares `changed` is near."""
         if before is not None and changed is not None and hit_map.parts is not None:
             return self._found_in_parts(inputs, hit_map, before, changed)

@@ -112,18 +112,18 @@ class Renderer:
         stamps = [clock.perf_counter()]
         shown = shown if keeps_stars(scene) else None
         planned = self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive)
-        turned = self._turns.turned(scene)
+        before, turned = self._turns.last, self._turns.turned(scene)
         if not self._turns.stays:
             self._turning.forget()
         self._turning_shown = turned and may_turn and progressive and can_turn(planned)
         if self._turning_shown:
             into = target or self._own_picture(size).frame, viewport or (0, 0, *size)
-            self._turning_shown = self._turning.draw(scene, planned, time, size, *into, shown)
+            self._turning_shown = self._turning.draw(scene, planned, time, size, *into, shown=shown, before=before or scene)
         if self._turning_shown:
             self.last.show(None)
             self._stamp(stamps, measure)
             made = self._report((0.0, 1e3 * (stamps[-1] - stamps[0]) if measure else 0.0, 0.0), False, planned, sharp=False, telling=False)
-            return replace(made, traced=made.marched > 0, sharpened=False)
+            return replace(made, sharpened=self._turning.prepares)
         inputs = FrameInputs.whole(planned, time, size, shown=shown)
         media = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
         self._last = rest = coarse_transfer.rest_of(inputs, media)
@@ -142,6 +142,15 @@ class Renderer:
         self._stamp(stamps, measure)
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp, telling=telling)
+
+    def turns(self, scene: Scene) -> bool:
+        """Whether `scene` differs from the last picture, or those before it from the same place, by the camera's look alone, and such a picture may be one that
+        is filtered from light kept by direction.
+
+        Raises:
+            As `render`.
+        """
+        return self._turns.would_turn(scene) and can_turn(make_plan(scene))
 
     def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
         """Whether all is there of the media that the next picture shows exactly, if it does; where the view `stays`, some more of their rays are marched."""

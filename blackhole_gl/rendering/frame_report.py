@@ -11,7 +11,7 @@ class FrameReport:
 
     Attributes:
         trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
-        traced: whether rays were traced; False when the kept hit map served.
+        traced: whether rays of the hit map were traced; False when what is kept of it, or of directions, served.
         marched: how many rays were, for the picture's pixels and for what it keeps of directions beside it.
         sharp: whether every pixel had a ray of its own.
         sharpened: whether the rays traced only made a slice of a kept map exact, or told what lies along kept ones, so that what it took says little.

@@ -25,7 +25,6 @@ from .instance_numbers import Number
 from .instances import InstanceTables
 from .programs import RAY_SLOTS, Draw, Programs, chosen
 from .ray_blocks import FreshBlocks, RayBlocks
-from .shifted import shifted_into
 from .squares import Squares
 from .tables import Tables
 from .target import Target
@@ -70,7 +69,6 @@ class HitMap:
         self.parts: Squares | None = None
         self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
-        self._spare: moderngl.Texture | None = None  # of the pool's size
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._key: tuple | None = None  # of all but the things and media, which have a key of their own
         self._met: FrameMet = NOTHING_MET
@@ -129,33 +127,33 @@ class HitMap:
         self._changed = (generation, changed) if changed and was_sharp else None
         return True
 
-    def extend(self, inputs: FrameInputs, squares: Squares) -> None:
-        """Traces `squares` of the picture of `inputs` more than a sharp map of it holds, or nothing but these where it holds another; what it does not hold
-        yet is unresolved. For pictures without things."""
-        rays = self._programs.get("trace.frag", inputs)
-        key, generation = _key_of(inputs, rays), self.generation
-        stands = self.parts is not None and key == self._key
-        self._blocks, self._last, self._refined_for = None, inputs, None
+    def prepare(self, inputs: FrameInputs) -> bool:
+        """Makes one of the textures that `extend` needs, as all of them take a frame's time; whether all are there."""
+        count = hit_texels.textures(inputs.plan.orders, 0, inputs.plan.times)
+        if len(self._pool) < count:
+            self._pool.append(self._texture(inputs.size))
+            made = self._ctx.framebuffer([self._pool[-1]])
+            made.clear()
+            made.release()
+        return len(self._pool) == count
+
+    def extend(self, inputs: FrameInputs, squares: Squares, parts: Squares) -> None:
+        """Traces `squares` more than the map holds of a picture of the size of `inputs`, in whatever ring; what it does not hold yet is unresolved.
+        For pictures without things, and maps that have never been traced in another way.
+
+        Args:
+            parts: what it holds then.
+        """
+        while not self.prepare(inputs):
+            pass
+        rays, generation, stands = self._programs.get("trace.frag", inputs), self.generation, self.parts is not None
+        self._blocks, self._last, self._refined_for, self._key = None, inputs, None, None
         self._bind_tables(rays)
         target = self._make_targets(inputs.size, hit_texels.textures(inputs.plan.orders, 0, inputs.plan.times))
-        if not stands:
-            target.clear()
         self._trace_squares(rays, target, squares)
         self._changed = (generation, squares) if stands else None
-        self.parts = self.parts.and_also(squares, inputs.size) if stands and self.parts is not None else squares
-        self._key, self.generation = key, next(_GENERATIONS)
+        self.parts, self.generation = parts, next(_GENERATIONS)
         self.traces += 1
-
-    def shift(self, inputs: FrameInputs, squares: Squares, by: tuple[int, int]) -> None:
-        """Makes an extended map one of the picture of `inputs`, whose pixels it had where they are when `by` is added; of it `squares` are known."""
-        self._blocks, self._last, self._changed = None, inputs, None
-        for k, held in enumerate(self.textures):
-            self._spare = self._spare or self._texture(held.size)
-            shifted_into(self._ctx, self._programs, inputs, self._spare, held, squares, by)
-            self._pool[k], self._spare = self._spare, held
-        self._release_frames()
-        self._make_targets(inputs.size, len(self.textures))
-        self.parts, self._key, self.generation = squares, _key_of(inputs, self._programs.get("trace.frag", inputs)), next(_GENERATIONS)
 
     def changed_since(self, generation: int) -> Squares | None:
         """The squares of a sharp map that alone differ from what it was at that `generation`; None where all of it may."""
@@ -483,15 +481,9 @@ class HitMap:
             self._pixels = None
 
     def _release_targets(self) -> None:
-        self._release_frames()
-        for texture in (*self._pool, *([] if self._spare is None else [self._spare])):
-            texture.release()
-        self._pool, self.textures, self._key, self._spare = [], [], None, None
-
-    def _release_frames(self) -> None:
-        for target in self._targets.values():
-            target.release()
-        self._targets = {}
+        for item in (*self._targets.values(), *self._pool):
+            item.release()
+        self._targets, self._pool, self.textures, self._key = {}, [], [], None
 
 
 def _texels(texture: moderngl.Texture) -> np.ndarray:

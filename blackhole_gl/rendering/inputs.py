@@ -23,6 +23,7 @@ class FrameInputs:
         picture: (width, height) in pixels of the whole picture that it is a part of.
         offset: of the drawn part in the picture, in pixels from the bottom left, with the shift of the rays inside their pixels.
         shown: (width, height) in pixels that the picture is to be shown with; None: its own.
+        start: of a part that is kept in a ring (direction_grid.py), column and row of its first pixel; pixels before that come after the last.
     """
 
     plan: Plan
@@ -31,6 +32,7 @@ class FrameInputs:
     picture: tuple[int, int]
     offset: tuple[float, float] = (0.0, 0.0)
     shown: tuple[int, int] | None = None
+    start: tuple[int, int] = (0, 0)
 
     @classmethod
     def whole(
@@ -77,7 +79,8 @@ class FrameInputs:
         Raises:
             ValueError: the camera is where no observer can be.
         """
-        return uniforms.as_bytes(self.plan, self.time, self.picture, self.offset)
+        ring = (*self.start, *self.size) if any(self.start) else uniforms.NO_RING
+        return uniforms.as_bytes(self.plan, self.time, self.picture, self.offset, ring)
 
     @cached_property
     def ray_bytes(self) -> bytes:

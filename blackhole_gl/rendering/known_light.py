@@ -19,7 +19,6 @@ from .hit_map import HitMap
 from .inputs import FrameInputs
 from .programs import Draw, Programs, Samplers
 from .shading import ShadePass
-from .shifted import shifted_into
 from .squares import Squares
 from .star_layer import with_stars
 from .tables import Tables
@@ -27,6 +26,8 @@ from .target import Target
 from .temperatures import TemperatureProfile
 
 TURNED = {"TURNED": 1}
+
+_AT_FIRST, _FORGETS = 2.5, 0.75  # rays a pixel, about the hole's shadow; and the share of them that is taken to be left the next time
 
 
 class KnownLight:
@@ -40,7 +41,7 @@ class KnownLight:
 
     Attributes:
         cells: which squares of the grid have been traced, bool (rows, columns).
-        light: RGBA16F, with the disk as it was drawn last.
+        rays_a_pixel: of the cells that were traced last, or somewhat before, as pixels at edges lie together.
     """
 
     def __init__(
@@ -61,15 +62,21 @@ class KnownLight:
         self._edges = EdgeRays(ctx, programs, *light_by, self._shade.sorting)
         shape = grid.size[1] // CELL, grid.size[0] // CELL
         self.cells, self._matter = np.zeros(shape, bool), np.zeros(shape, bool)
+        self.rays_a_pixel = _AT_FIRST
+        self._serials: list[int] = []
         self._first = self._second = np.empty((0, 2), int)  # pixels with single stars, one at least, and those that may have several
-        self._sky, self.light = (ctx.texture(grid.size, 4, dtype="f2") for _ in range(2))
-        self._spare: moderngl.Texture | None = None
-        self._targets: tuple[Target, Target] | None = None  # of sky and light, with the pixels' classes
+        self._textures: list[moderngl.Texture] = []  # sky and light
+        self._targets: tuple[Target, ...] = ()  # of them, with the pixels' classes
 
     @property
     def marched(self) -> int:
         """How many rays have been traced."""
         return self._map.marched + self._edges.marched
+
+    @property
+    def light(self) -> moderngl.Texture:
+        """RGBA16F, with the disk as it was drawn last."""
+        return self._textures[1]
 
     def inputs(self, plan: Plan, time: float) -> FrameInputs:
         """A frame at `time`, exposed as the picture of `plan`."""
@@ -77,50 +84,66 @@ class KnownLight:
         if own.scene.post != post:
             own = replace(own, scene=replace(own.scene, post=post))
         shown = math.ceil(self.grid.picture[0] / self.finer), math.ceil(self.grid.picture[1] / self.finer)
-        return FrameInputs(own, time, self.grid.size, self.grid.picture, self.grid.corner, shown)
+        grid = self.grid
+        offset = grid.corner[0] - grid.start[0], grid.corner[1] - grid.start[1]
+        return FrameInputs(own, time, grid.size, grid.picture, offset, shown, grid.start)
+
+    def serves(self, key: Scene, plan: Plan, time: float) -> bool:
+        """Whether it is of the place `key`, and by the programs that would be drawn with now."""
+        return self.key == key and self._programs_of(self.inputs(plan, time)) == self._serials
+
+    def prepare(self, inputs: FrameInputs) -> bool:
+        """Makes some of what `extend` needs, as all of it takes as long as some frames; whether that is all there."""
+        if len(self._textures) < 2:
+            self._textures.append(self._ctx.texture(self.grid.size, 4, dtype="f2"))
+        elif not self._map.prepare(inputs):
+            return False
+        elif not self._targets:
+            depth = self._shade.sorting.prepare(self.grid.size)
+            self._targets = Target.of(self._ctx, self._textures[:1], depth), Target.of(self._ctx, self._textures[1:], depth)
+            for target in self._targets:
+                target.frame.depth_mask = False
+                target.frame.clear()
+        else:
+            self._edges.prepare(self.grid.size)
+            return True
+        return False
 
     def extend(self, inputs: FrameInputs, fresh: Bool[np.ndarray, "rows columns"]) -> None:
         """Traces the cells that are `fresh`, and shades their sky."""
-        squares = Squares.picked(fresh, CELL, self.grid.size)
-        self._map.extend(inputs, squares)
+        before, squares = self.marched, Squares.picked(fresh, CELL, self.grid.size)
+        known = self.cells | fresh
+        while not self.prepare(inputs):
+            pass
+        self._map.extend(inputs, squares, Squares.picked(known, CELL, self.grid.size))
         classes = self._shade.sorting.of(inputs, self._map)
-        self.cells = self.cells | fresh
-        if self._targets is None:
-            self._targets = self._made(classes.depth)
-            for target in self._targets:
-                target.frame.clear()
-        targets = self._targets
         if inputs.plan.scene.sky.enabled:
-            for target in targets:
+            for target in self._targets:
                 self._shade.draw_sky_in(squares, inputs, self._map, target.frame)
         for box in boxes_of(fresh, CELL):
-            self._find_stars(targets[0], box)
+            self._find_stars(self._targets[0], box)
             self._find_matter(classes.marks, box)
+        self._edges.trace(inputs, self._map, motion=Motion.CAMERA)
+        self.cells, self._serials = known, self._programs_of(inputs)
+        self.rays_a_pixel = max((self.marched - before) / (len(squares) * CELL**2), _FORGETS * self.rays_a_pixel)
 
-    def move(self, grid: DirectionGrid, plan: Plan, time: float) -> None:
-        """Goes on with a `grid` of the same size and pixels that begins elsewhere; what is known of both is kept."""
-        x, y = (new - old for new, old in zip(grid.corner, self.grid.corner))
-        x += round(((grid.yaw_deg - self.grid.yaw_deg + 180.0) % 360.0 - 180.0) / math.degrees(grid.pixel))
+    def move(self, grid: DirectionGrid, held: Bool[np.ndarray, "rows columns"]) -> None:
+        """Goes on with a `grid` of the same pixels that begins elsewhere; what is known of the cells `held` by both is kept."""
+        gone = self.cells & ~held
         self.grid, self._plan = grid, _all_round(self._plan, grid)
-        self.cells, self._matter = (_moved(cells, x // CELL, y // CELL) for cells in (self.cells, self._matter))
-        inputs, squares = self.inputs(plan, time), Squares.picked(self.cells, CELL, grid.size)
-        self._map.shift(inputs, squares, (x, y))
-        self._spare = self._spare or self._ctx.texture(grid.size, 4, dtype="f2")
-        shifted_into(self._ctx, self._programs, inputs, self._spare, self._sky, squares, (x, y))
-        self._sky, self._spare = self._spare, self._sky
-        shifted_into(self._ctx, self._programs, inputs, self._spare, self.light, squares, (x, y))
-        self.light, self._spare = self._spare, self.light
-        self._release_frames()
-        self._targets = self._made(self._shade.sorting.of(inputs, self._map).depth)
-        self._first, self._second = (self._held(pixels - (x, y)) for pixels in (self._first, self._second))
+        self.cells, self._matter = self.cells & held, self._matter & held
+        for target in self._targets:
+            for box in boxes_of(gone, CELL):  # no light from elsewhere is to glow
+                target.frame.clear(viewport=box)
+        self._first, self._second = (pixels[held[pixels[:, 1] // CELL, pixels[:, 0] // CELL]] for pixels in (self._first, self._second))
 
     def draw_disk(self, inputs: FrameInputs, seen: Bool[np.ndarray, "rows columns"]) -> None:
         """Draws the disk in the cells that are `seen`, and what several rays show of the pixels at edges."""
-        if self._targets is None:
+        if not self._targets:
             return
-        target, matter = self._targets[1], self._matter & seen
+        (sky, target), matter = self._targets, self._matter & seen
         if matter.any():
-            self._shade.draw_disk_in(Squares.picked(matter, CELL, self.grid.size), inputs, self._map, target.frame, self._sky)
+            self._shade.draw_disk_in(Squares.picked(matter, CELL, self.grid.size), inputs, self._map, target.frame, sky.texture)
         self._edges.draw(inputs, self._map, target, motion=Motion.CAMERA)
 
     def stars(self, inputs: FrameInputs) -> tuple[Draw, Samplers]:
@@ -140,25 +163,12 @@ class KnownLight:
         self._map.release()
         self._shade.release()
         self._edges.release()
-        self._release_frames()
-        for texture in (self._sky, self.light, self._spare):
-            if texture is not None:
-                texture.release()
+        for item in (*self._targets, *self._textures[len(self._targets) :]):
+            item.release()
 
-    def _held(self, pixels: Int[np.ndarray, "pixels 2"]) -> Int[np.ndarray, "pixels 2"]:
-        return pixels[((pixels >= 0) & (pixels < self.grid.size)).all(axis=1)]
-
-    def _made(self, depth: moderngl.Texture) -> tuple[Target, Target]:
-        """Draw into sky and light, with the pixels' classes as their depth."""
-        made = Target.of(self._ctx, [self._sky], depth), Target.of(self._ctx, [self.light], depth)
-        for target in made:
-            target.frame.depth_mask = False
-        return made
-
-    def _release_frames(self) -> None:
-        for target in self._targets or ():
-            target.frame.release()
-        self._targets = None
+    def _programs_of(self, inputs: FrameInputs) -> list[int]:
+        paths = ("trace.frag", "shade_sky.frag") if inputs.plan.scene.sky.enabled else ("trace.frag",)
+        return [self._programs.get(path, inputs).serial for path in paths]
 
     def _find_stars(self, sky: Target, box: Box) -> None:
         """Lists the pixels of `box`, whose sky is new, that have single stars."""
@@ -180,12 +190,3 @@ def _all_round(plan: Plan, grid: DirectionGrid) -> Plan:
     """`plan` for pictures of all directions, in which those of `grid` are a part."""
     level = {"camera.projection": "equirectangular", "camera.yaw_deg": grid.yaw_deg, "camera.pitch_deg": grid.pitch_deg, "camera.roll_deg": grid.roll_deg}
     return replace(plan, scene=plan.scene.with_values(level))
-
-
-def _moved(cells: Bool[np.ndarray, "rows columns"], columns: int, rows: int) -> Bool[np.ndarray, "rows columns"]:
-    """What of `cells` is still among them when they begin `columns` to the right and `rows` up."""
-    found = np.zeros_like(cells)
-    (low, high), (left, right) = ((max(-step, 0), min(side, side - step)) for step, side in zip((rows, columns), cells.shape))
-    if low < high and left < right:
-        found[low:high, left:right] = cells[low + rows : high + rows, left + columns : right + columns]
-    return found

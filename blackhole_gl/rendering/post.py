@@ -33,6 +33,8 @@ GLOW_REACH = 5 * GLOW_GRID
 GLOW_LASTS = 0.25
 """Scene time in r_s/c for which a glow may stand still: the picture is then off by 0.01 grey levels in the mean, and nowhere by more than 4."""
 
+_ANYWHERE = 4.0  # beyond all places in a texture that goes round
+
 TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
 """Size of the tone table, as switches of the shaders that make it and read it: bits of the mantissa, and exponents."""
 
@@ -121,13 +123,14 @@ class PostPass:
 
     def draw_part(self, inputs: FrameInputs, radiance: moderngl.Texture, corner: tuple[int, int], target: moderngl.Framebuffer) -> None:
         """Makes the part of `radiance` (RGBA16F) that begins at the pixel `corner` and is as large as `target` and `inputs` the picture in there, as if it
-        were all of one."""
+        were all of one. Beyond its end `radiance` begins anew."""
         radiance.filter = (moderngl.LINEAR, moderngl.LINEAR)
-        radiance.repeat_x = radiance.repeat_y = False
+        radiance.repeat_x = radiance.repeat_y = True
         self.samplers = {"radiance": radiance, "tone_table": self._tone_table(inputs)}
         if inputs.plan.scene.post.bloom:
             self._make_levels(next(bloom_sizes(inputs.size)))
-            self._draw_quarter(inputs, radiance, self._down[0], start=(corner[0] / radiance.width, corner[1] / radiance.height))
+            start = corner[0] / radiance.width, corner[1] / radiance.height
+            self._draw_quarter(inputs, radiance, self._down[0], start=start, last=(_ANYWHERE, _ANYWHERE))
             self.samplers["glow"] = self._spread(inputs)
         glow = self.samplers.get("glow")
         covered = None if glow is None else (GLOW_SHRINKS * glow.width, GLOW_SHRINKS * glow.height)
@@ -241,11 +244,22 @@ class PostPass:
         self._draw_quarter(inputs, radiance, self._down[0], _glow_beyond(inputs))
         return self._spread(inputs)
 
-    def _draw_quarter(self, inputs: FrameInputs, radiance: moderngl.Texture, level: Level, beyond: int = 0, start: tuple[float, float] = (0.0, 0.0)) -> None:
-        """What glows of `radiance` from the place `start`, 0…1, on, and of what stands so many pixels `beyond` its left and right border if it goes round."""
+    def _draw_quarter(
+        self,
+        inputs: FrameInputs,
+        radiance: moderngl.Texture,
+        level: Level,
+        beyond: int = 0,
+        start: tuple[float, float] = (0.0, 0.0),
+        last: tuple[float, float] | None = None,
+    ) -> None:
+        """What glows of `radiance` from the place `start`, 0…1, to its end or the place `last` on, and of what stands so many pixels `beyond` its left and
+        right border if it goes round."""
         down = self._programs.get("post/bloom_down.frag", inputs)
         down.sample({"source": radiance})
         down.set(**_places("source", radiance, radiance.size, GLOW_SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
+        if last is not None:
+            down.set(source_last=last)
         if not beyond:
             down.set(source_start=start)
             draw_into(level, down)
@@ -316,4 +330,3 @@ def _nearest(texture: moderngl.Texture) -> moderngl.Texture:
 
 def _texel(size: tuple[int, int]) -> tuple[float, float]:
     return 1.0 / size[0], 1.0 / size[1]
-

@@ -55,6 +55,14 @@ class PixelSorting:
             kept = self._kept = self._sort(inputs, hit_map, size, key, changed)
         return kept
 
+    def prepare(self, size: tuple[int, int]) -> moderngl.Texture:
+        """Makes what the pixels of a map of `size` are sorted into, unless it is there; returns their depth."""
+        if self._target is None or self._depth is None or self._target.size != size:
+            self.release()
+            self._depth = self._ctx.depth_texture(size)
+            self._target = marks_target(self._ctx, size, self._depth)
+        return self._depth
+
     def release(self) -> None:
         """Gives the GL objects back."""
         for item in (self._target, self._depth):
@@ -64,10 +72,8 @@ class PixelSorting:
 
     def _sort(self, inputs: FrameInputs, hit_map: HitMap, size: tuple[int, int], key: tuple, changed: Squares | None) -> Sorted:
         """All pixels, or those that have `changed` anew."""
-        if self._target is None or self._depth is None or self._target.size != size:
-            self.release()
-            self._depth = self._ctx.depth_texture(size)
-            self._target = marks_target(self._ctx, size, self._depth)
+        depth = self.prepare(size)
+        assert self._target is not None
         classes = self._programs.get("shade_classes.frag", inputs, hit_map.switches())
         classes.sample(hit_map.samplers())
         set_hiding(classes)
@@ -84,7 +90,7 @@ class PixelSorting:
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
         before = self._kept.key if self._kept is not None and changed is not None else None
-        return Sorted(key, self._depth, self._target, before, changed)
+        return Sorted(key, depth, self._target, before, changed)
 
 
 def hides(scene: Scene) -> bool:

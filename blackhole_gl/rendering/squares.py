@@ -53,10 +53,6 @@ class Squares:
         """Those of a picture of `size` whose cell of `side` pixels each way is picked."""
         return cls.of(np.argwhere(cells)[:, ::-1], side, size)
 
-    def and_also(self, others: Squares, size: tuple[int, int]) -> Squares:
-        """Both, of a picture of `size`; they have the same side."""
-        return Squares.of(np.concatenate([self.places, others.places]), self.side, size)
-
     def __len__(self) -> int:
         return len(self.places)
 

@@ -5,7 +5,8 @@ What comes from a direction of the observer's frame does not depend on where he 
 of the grid is then filtered into the view's own pixels, and single stars are drawn over it. It is as sharp as a picture that is moved by a part of a pixel: for
 frames in motion. One at rest has rays of its own.
 
-A grid serves a view as long as its pixels are about as wide and the view lies in it. Another is made in time, some of its rays in every second frame.
+The first grid of a movement is coarse, so that its first picture is there soon. One with pixels as wide as the view's takes its place when it has all that is
+seen, with some of its rays in each frame; as does another where the view zooms, or leaves the equator of the grid.
 """
 
 from __future__ import annotations
@@ -16,8 +17,10 @@ from dataclasses import dataclass, replace
 import moderngl
 import numpy as np
 
+from ..physics import projection
 from ..planning import Plan
 from ..scene import Scene
+from ..shapes import Bool, Int
 from . import kept_light
 from .boxes import Box
 from .direction_grid import CELL, DirectionGrid, View
@@ -35,12 +38,23 @@ _STAYS = 4  # pictures of one view that follow one that has turned, before it co
 
 # Pixels of a grid to those of a view, along each axis of its middle; of one whose picture is not made in every frame, and which shows all of its stars.
 _FINER, _FINER_LASTING = 1.0, 1.2
-_MARGIN = (0.3, 0.3)  # of a view's width and height that a grid has on each side
+# Widths and heights of a view that a grid holds: of one that turns; that has zoomed in for some frames; and that zooms out, with pixels as wide as the grid's.
+_ROOM, _ROOM_IN, _ROOM_OUT = 1.25, 1.12, 1.35
 _UNLIKE = 1.05  # change of a view's pixel from which on another grid is begun
-_AHEAD_OF_ZOOM = 1.25  # by how much a grid that is begun while a view zooms is finer, or coarser, than it should be by then
-_FINEST = 1.35  # how fine a grid may be, of what the view needs: beyond, its pixels cost more than to trace those of another at once
-_MOST = 0.047  # share of the picture's pixels that get rays in a frame, if the view needs no more
-_AHEAD = CELL  # pixels beside a view that are traced when something of it is
+
+# Pixels of a new grid to those of a view: of the first, and of one that is begun while a view zooms in, ahead of it.
+_COARSE, _AHEAD_IN = 2.0, 0.8
+_ZOOMS = 1e-3  # change of a view's pixel from frame to frame from which on it does
+
+# A view that zooms out gets a grid with pixels as wide as its own so many frames later, no more than `_MOST_OUT` times as wide as they are; the wider, the
+# earlier, as what is new of the view needs ever more of the old one's. One that is coarser than `_SOFT` by then is not waited for to become right, and one that
+# holds fewer than so many widths of the view not either.
+_FRAMES_OUT, _MOST_OUT, _SOFT, _TIGHT = 70, 2.0, 0.7, 1.3
+_MOST = 0.042  # share of the picture's pixels that get rays in a frame, if the view needs no more
+_LEAP = 0.2  # the same, where a coarse grid is begun instead
+_WORTH, _WORTH_OUT = (0.7, 1.6), (0.45, 1.0)  # how fine the pixels of a grid that is being made may be, of what the view needs; while that zooms out
+_AHEAD = CELL  # pixels beside a view of which none is left out when more of it is traced
+_BESIDE = 3 * CELL  # that a grid has on each side, but about the poles
 _SPARE = 12  # pixels beside a view that are drawn with it where nothing but the view moves
 _FEW = 4  # stars in a pixel: of a sky that may show more all but the brightest would become a haze
 _SINGLE = 0.95  # as for pictures that are shown a little larger: stars that can be seen singly are left to the picture shown
@@ -65,20 +79,28 @@ class Turns:
     """Tells which pictures differ from those before by where the camera looks alone.
 
     Attributes:
+        last: the scene of the last picture.
         stays: whether the camera of the last picture was where that of the one before was, and nothing else had changed.
     """
 
     def __init__(self) -> None:
         self.stays = False
-        self._last: Scene | None = None
-        self._since = _STAYS  # pictures since the last that did
+        self.last: Scene | None = None
+        self._since: int | None = None  # pictures since the last that did; None where none has in this place
 
     def turned(self, scene: Scene) -> bool:
         """Whether `scene` does: or one of the last few did."""
-        last, self._last = self._last, scene
-        self.stays = last is not None and (last is scene or place_of(last) == place_of(scene))
-        self._since = _STAYS if not self.stays else self._since + 1 if last == scene else 0
-        return self._since < _STAYS
+        self.stays, last, self.last = self._in_place(scene), self.last, scene
+        since = self._since if self.stays else None
+        self._since = 0 if self.stays and last != scene else None if since is None else since + 1
+        return self._since is not None and self._since < _STAYS
+
+    def would_turn(self, scene: Scene) -> bool:
+        """Whether `scene` is of a place in which the camera turns, or has turned."""
+        return self._in_place(scene) and (self._since is not None or self.last != scene)
+
+    def _in_place(self, scene: Scene) -> bool:
+        return self.last is not None and (self.last is scene or place_of(self.last) == place_of(scene))
 
 
 class TurningPass:
@@ -99,25 +121,39 @@ class TurningPass:
         self.marched = 0
         self._known: KnownLight | None = None
         self._next: KnownLight | None = None  # what is made ready to take its place
-        self._frames = 0  # in which another grid is made
         self._extended = 0  # cells, in the last frame
         self._picture: Target | None = None
         self._made: _Made | None = None
         self._shown: tuple[FrameInputs, View] | None = None  # by the last picture
 
+    @property
+    def prepares(self) -> bool:
+        """Whether another grid is being made, so that what a picture takes says little of others."""
+        return self._next is not None
+
     def draw(
-        self, scene: Scene, plan: Plan, time: float, size: tuple[int, int], target: moderngl.Framebuffer, viewport: Box, shown: tuple[int, int] | None
+        self,
+        scene: Scene,
+        plan: Plan,
+        time: float,
+        size: tuple[int, int],
+        target: moderngl.Framebuffer,
+        viewport: Box,
+        *,
+        shown: tuple[int, int] | None,
+        before: Scene,
     ) -> bool:
         """Draws the picture of `plan`, which is one of `scene` and `can_turn`, at `time` in `size` pixels into `viewport` (x, y, width, height) of `target`.
 
         Args:
             shown: as for `Renderer.render`; single stars are then left to `draw_stars`.
+            before: of the last picture, of whichever kind.
 
         Returns:
             Whether that was done: a view that is too wide is not.
         """
         view = View.of(plan.scene.camera, size)
-        known = self._known_for(place_of(scene), plan, time, view, shown)
+        known = self._known_for(place_of(scene), plan, time, view, shown, before)
         if known is None:
             return False
         inputs = known.inputs(plan, time)
@@ -125,6 +161,8 @@ class TurningPass:
         if made is None or not made.serves(known, inputs, view):
             made = self._made = self._make(known, inputs, plan, view)
         self._turn(known, inputs, view, made.box, target, viewport)
+        if self._next is not None:
+            self._extend_next(self._next, plan, time, view)
         self._shown = inputs, view
         if shown is None:
             self.draw_stars(target, viewport)
@@ -156,72 +194,81 @@ class TurningPass:
             self._picture.release()
         self._picture = None
 
-    def _known_for(self, key: Scene, plan: Plan, time: float, view: View, shown: tuple[int, int] | None) -> KnownLight | None:
-        """What serves `view` of a camera in the place of `key`; None where the view is too wide for a grid."""
-        known = self._known
-        if known is None or known.key != key:
+    def _known_for(self, key: Scene, plan: Plan, time: float, view: View, shown: tuple[int, int] | None, before: Scene) -> KnownLight | None:
+        """What serves `view`, which comes after that of `before`, of a camera in the place of `key`; None where it is too wide for a grid."""
+        zoom = projection.half_height(plan.scene.camera) / projection.half_height(before.camera)
+        if self._known is not None and not self._known.serves(key, plan, time):
             self.forget()
-            self._known = self._begun(key, plan, view, shown)
-            return self._known
-        finer = _finer(plan)
-        if self._next is not None and not (self._next.grid.holds(view) and 1.0 / _AHEAD_OF_ZOOM**2 < _scale(self._next.grid, view, finer) < _AHEAD_OF_ZOOM**2):
-            self._next.release()
-            self._next = None
-        serves = known.grid.holds(view)
-        if not serves:
-            serves = self._move(known, plan, time, view)
-        scale = _scale(known.grid, view, finer)
-        if self._next is None and not (serves and 1.0 / _UNLIKE < scale < _UNLIKE):
-            ahead = _AHEAD_OF_ZOOM if scale < 1.0 / _UNLIKE else 1.0 / _AHEAD_OF_ZOOM if scale > _UNLIKE else 1.0
-            self._next = self._begun(key, plan, view, shown, ahead)
-        if self._next is not None and (self._made_ready(self._next, plan, time, view) or not serves or scale > _FINEST):
+        low, high = _WORTH_OUT if zoom > 1.0 + _ZOOMS else _WORTH
+        if self._next is not None and not (self._follow(self._next, view) and low < _scale(self._next.grid, view, _finer(plan)) < high):
+            self._next = self._given_back(self._next)
+        if self._next is not None and self._is_ready(self._next, view):
             self._take(self._next)
             self._next = None
-        return self._known if self._known is not None and self._known.grid.holds(view) else None
+        if self._known is None or not self._follow(self._known, view) or self._lacks(self._known, view) > _LEAP * view.size[0] * view.size[1]:
+            self._take(self._begun(key, plan, view, shown, _COARSE, zoom))
+        if self._known is not None and self._next is None and plan.scene.camera != before.camera:
+            wider = _wanted(self._known.grid, view, _finer(plan), zoom)
+            self._next = None if wider is None else self._begun(key, plan, view, shown, wider, zoom)
+        return self._known
 
-    def _move(self, known: KnownLight, plan: Plan, time: float, view: View) -> bool:
-        """Has `view` in the middle of a grid with the same pixels; whether there is one."""
-        grid = known.grid.moved_to(view)
-        if grid is None:
-            return False
-        known.move(grid, plan, time)
-        self._made = None
+    def _follow(self, known: KnownLight, view: View) -> bool:
+        """Moves the grid of what is `known` where it has to be moved for `view`; whether it holds that."""
+        if known.grid.holds(view, _BESIDE):
+            return True
+        moved = known.grid.moved_to(view, _BESIDE)
+        if moved is None:
+            return known.grid.holds(view)
+        if moved[0].corner != known.grid.corner or moved[0].start != known.grid.start:
+            known.move(*moved)
+            self._made = None if known is self._known else self._made
         return True
 
-    def _take(self, known: KnownLight) -> None:
-        if self._known is not None:
-            self._known.release()
+    def _take(self, known: KnownLight | None) -> None:
+        self._given_back(self._known)
         self._known, self._made = known, None
 
-    def _begun(self, key: Scene, plan: Plan, view: View, shown: tuple[int, int] | None, ahead: float = 1.0) -> KnownLight | None:
-        grid = DirectionGrid.about(plan.scene.camera, view, ahead * _finer(plan), _MARGIN)
-        return None if grid is None else KnownLight(self._ctx, self._programs, self._light_by, key, plan, grid, _finer_of_stars(plan.scene, view, shown))
+    def _given_back(self, known: KnownLight | None) -> None:
+        if known is not None:
+            known.release()
 
-    def _made_ready(self, known: KnownLight, plan: Plan, time: float, view: View) -> bool:
-        """Whether all that `view` shows is in `known`, which gets some of it."""
-        seen = known.grid.seen(view)
+    def _begun(self, key: Scene, plan: Plan, view: View, shown: tuple[int, int] | None, wider: float, zoom: float) -> KnownLight | None:
+        """With pixels so many times as wide as the view needs."""
+        room = _ROOM_OUT * wider if zoom > 1.0 + _ZOOMS else _ROOM_IN if wider < 1.0 else _ROOM
+        grid = DirectionGrid.about(plan.scene.camera, view, _finer(plan) / wider, 0.5 * (room - 1.0), _BESIDE + CELL)
+        return None if grid is None else KnownLight(self._ctx, self._programs, self._light_by, key, plan, grid, _finer_of_stars(plan.scene, view, shown, grid))
+
+    def _is_ready(self, known: KnownLight, view: View) -> bool:
+        """Whether all that `view` shows is in `known`."""
+        return not (known.grid.seen(view) & ~known.cells).any()
+
+    def _lacks(self, known: KnownLight, view: View) -> int:
+        """How many pixels `known` lacks of what `view` shows."""
+        return CELL**2 * int(np.count_nonzero(known.grid.seen(view) & ~known.cells))
+
+    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View) -> None:
+        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle outwards: of a view
+        that narrows the rest may not be needed."""
+        seen = known.grid.seen(view, _AHEAD)
         left = np.argwhere(seen & ~known.cells)
-        if not len(left):
-            return True
-        self._frames += 1
-        cells = _cells(view) - self._extended
-        if self._frames % 2 and cells > 0:
-            away = np.abs(left - np.argwhere(seen).mean(axis=0)) / known.cells.shape
-            inner = np.argsort(away.max(axis=1))[:cells]  # of a view that narrows the rest may not be needed
-            fresh = np.zeros_like(known.cells)
-            fresh[tuple(left[inner].T)] = True
-            self._extend(known, known.inputs(plan, time), fresh)
-        return False
+        cells = _cells(view, known) - self._extended
+        if len(left) and cells > 0:
+            shown = known.grid.seen(view)[tuple(left.T)]
+            inner = np.lexsort((-known.grid.ahead(view)[tuple(left.T)], ~shown))[:cells]
+            inputs = known.inputs(plan, time)
+            if known.prepare(inputs):
+                self._extend(known, inputs, _marked(left[inner], seen.shape))
 
-    def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, spare: int) -> int:
-        """Traces what `view` shows and `known` lacks, and as much about it as a frame has rays for; returns how many pixels of `spare` ones that is."""
-        for spared, ahead in ((spare, _AHEAD), (spare, 0), (0, 0)):
-            fresh = known.grid.seen(view, spared + ahead) & ~known.cells
+    def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, spare: int) -> None:
+        """Traces what `view` shows and `known` lacks, and as much about it as the frame has rays for."""
+        most, fresh = _cells(view, known), np.zeros_like(known.cells)
+        for beside in (0, spare + _AHEAD, spare + _AHEAD if self._next is not None else spare + 2 * _AHEAD):
+            left = np.argwhere(known.grid.seen(view, beside) & ~known.cells & ~fresh)
+            if beside and len(left) > most - self._extended:
+                left = left[: max(most - self._extended, 0)]
+            fresh |= _marked(left, fresh.shape)
             self._extended = int(np.count_nonzero(fresh))
-            if self._extended <= _cells(view) or not known.cells.any():
-                break
-        known.extend(inputs, fresh)
-        return spared
+        self._extend(known, inputs, fresh)
 
     def _extend(self, known: KnownLight, inputs: FrameInputs, fresh: np.ndarray) -> None:
         before = known.marched
@@ -232,16 +279,16 @@ class TurningPass:
         """The picture of what `view` shows; of a little more where it may serve for the next ones."""
         lasts = kept_light.stands(inputs.plan)
         spare = _SPARE if lasts else 0
+        if (known.grid.seen(view, spare + _AHEAD) & ~known.cells).any():
+            self._extend_for(known, inputs, view, spare)
         before = known.marched
-        seen = known.grid.seen(view, spare)
-        if (seen & ~known.cells).any():
-            spare = self._extend_for(known, inputs, view, spare)
-        known.draw_disk(inputs, seen)
+        known.draw_disk(inputs, known.grid.seen(view, spare))
         self.marched += known.marched - before
         x, y, width, height = known.grid.box(view)
         size = self._size_for(width + 2 * spare, height + 2 * spare)
         box = x - spare, y - spare, *size
-        self._post.draw_part(inputs.in_picture(plan, size), known.light, box[:2], self._picture_of(size).frame)
+        corner = box[0] + inputs.start[0], box[1] + inputs.start[1]
+        self._post.draw_part(inputs.in_picture(plan, size), known.light, corner, self._picture_of(size).frame)
         return _Made(known, inputs, box, lasts)
 
     def _size_for(self, width: int, height: int) -> tuple[int, int]:
@@ -293,9 +340,9 @@ class _Made:
         return inside and not (known.grid.seen(view) & ~known.cells).any()
 
 
-def _cells(view: View) -> int:
+def _cells(view: View, known: KnownLight) -> int:
     """How many may get rays in a frame."""
-    return int(_MOST * view.size[0] * view.size[1]) // CELL**2
+    return int(_MOST * view.size[0] * view.size[1] / known.rays_a_pixel) // CELL**2
 
 
 def _finer(plan: Plan) -> float:
@@ -307,11 +354,33 @@ def _scale(grid: DirectionGrid, view: View, finer: float) -> float:
     return view.pixel / (finer * grid.pixel)
 
 
-def _finer_of_stars(scene: Scene, view: View, shown: tuple[int, int] | None) -> float:
+def _wanted(grid: DirectionGrid, view: View, finer: float, zoom: float) -> float | None:
+    """The pixels, in those of `view`, that another grid should have; None where `grid` will do. `zoom`: how much wider they are than in the last frame."""
+    scale = _scale(grid, view, finer)
+    if zoom > 1.0 + _ZOOMS:
+        ahead = min(zoom**_FRAMES_OUT, _MOST_OUT)
+        soon = ahead**0.6
+        if scale > _UNLIKE / ahead**0.2 or grid.size[0] < _TIGHT * grid.box(view)[2]:
+            return ahead
+        return soon if scale * soon < _SOFT else None
+    if zoom < 1.0 - _ZOOMS:
+        return _AHEAD_IN if scale < 1.0 / _UNLIKE else None
+    return None if 1.0 / _UNLIKE < scale < _UNLIKE and grid.is_level_with(view) and grid.holds(view, _BESIDE) else 1.0
+
+
+def _finer_of_stars(scene: Scene, view: View, shown: tuple[int, int] | None, grid: DirectionGrid) -> float:
     """Side of a pixel shown over the grid's, for its stars: 1 where they are drawn with the rest."""
-    if shown is not None:
-        return view.size[1] / shown[1]
-    return _SINGLE if 0 < stars_a_pixel(scene) <= _FEW else 1.0
+    stars, finer = stars_a_pixel(scene), view.pixel / grid.pixel * (view.size[1] / shown[1] if shown is not None else 1.0)
+    if stars and finer <= _SINGLE:
+        return finer
+    return _SINGLE if 0 < stars <= _FEW else 1.0
+
+
+def _marked(cells: Int[np.ndarray, "cells 2"], shape: tuple[int, ...]) -> Bool[np.ndarray, "rows columns"]:
+    """Those at the rows and columns `cells`."""
+    marked = np.zeros(shape, bool)
+    marked[tuple(cells.T)] = True
+    return marked
 
 
 def _roomy(side: int) -> int:

@@ -30,6 +30,7 @@ _RAY_MEMBERS = (
     ("seen_beaming", "vec4"),
     ("picture_size", "vec2"),  # pixels of the whole picture
     ("picture_offset", "vec2"),  # of the drawn part in it, with the sub-pixel shift
+    ("picture_ring", "vec4"),  # of a part that is kept in a ring: the pixel of the ring that its first one has, and the ring's size; else 0
     ("picture_hole", "vec2"),  # pixel in the direction of the hole, far off where it is not ahead
     ("disk_axis_x", "vec4"),  # the disk's own axes, in the plan's frame: two in its plane, and that which stands on it
     ("disk_axis_y", "vec4"),
@@ -58,6 +59,10 @@ _SHADE_MEMBERS = (
     ("hole_spin_complement", "float"),  # 1 − |a*|
     ("plan_medium_step", "float"),  # share of a medium's scale
 )
+
+
+NO_RING = 0, 0, 0, 0
+"""Of what is drawn as it lies in its picture."""
 
 
 @cache
@@ -108,7 +113,7 @@ def blocks() -> tuple[Block, ...]:
     return ray_block(), shade_block(), scene_block()
 
 
-def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0)) -> Mapping[str, object]:
+def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = (0.0, 0.0), ring: tuple[int, int, int, int] = NO_RING) -> Mapping[str, object]:
     """Values of `ray_block` for a picture of `size` (width, height) pixels, all worked out in float64, in the plan's frame.
 
     Raises:
@@ -132,6 +137,7 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         seen_beaming=seen.shown_energies[1],
         picture_size=size,
         picture_offset=offset,
+        picture_ring=ring,
         picture_hole=(0.5 * size[0] + 0.5 * right / picture_scale, 0.5 * size[1] + 0.5 * up / picture_scale),
         disk_axis_x=(*x, 0.0),
         disk_axis_y=(*y, 0.0),
@@ -236,22 +242,22 @@ def _choice_names() -> tuple[tuple[str, ...], tuple[Mapping[Value, Mapping[str, 
     )
 
 
-def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float]) -> dict[str, bytes]:
+def as_bytes(plan: Plan, time: float, picture: tuple[int, int], offset: tuple[float, float], ring: tuple[int, int, int, int] = NO_RING) -> dict[str, bytes]:
     """The packed blocks by name, for a `picture` of so many pixels of which the part from `offset` on is drawn."""
-    of_rays, of_scene = _without_time(plan, picture, offset)
+    of_rays, of_scene = _without_time(plan, picture, offset, ring)
     return {ray_block().name: of_rays, shade_block().name: shade_block().pack(shade_values(plan, time)), scene_block().name: of_scene}
 
 
-def _without_time(plan: Plan, picture: tuple[int, int], offset: tuple[float, float]) -> tuple[bytes, bytes]:
+def _without_time(plan: Plan, picture: tuple[int, int], offset: tuple[float, float], ring: tuple[int, int, int, int]) -> tuple[bytes, bytes]:
     """The packed blocks that time does not change, of rays and of the scene: the same objects for the same plan until another is asked for, as a camera at rest
     asks for them in every frame."""
     global _last_without_time
     if _last_without_time is not None:
         kept, (of_plan, *of_rest) = _last_without_time
-        if of_plan is plan and of_rest == [picture, offset]:
+        if of_plan is plan and of_rest == [picture, offset, ring]:
             return kept
-    made = ray_block().pack(ray_values(plan, picture, offset)), scene_block().pack(scene_values(plan))
-    _last_without_time = made, (plan, picture, offset)
+    made = ray_block().pack(ray_values(plan, picture, offset, ring)), scene_block().pack(scene_values(plan))
+    _last_without_time = made, (plan, picture, offset, ring)
     return made
 
 
@@ -260,4 +266,4 @@ def in_longer_steps(plan: Plan, picture: tuple[int, int], offset: tuple[float, f
     return {ray_block().name: ray_block().pack({**ray_values(plan, picture, offset), "plan_step_length": times * plan.step_length})}
 
 
-_last_without_time: tuple[tuple[bytes, bytes], tuple[Plan, tuple[int, int], tuple[float, float]]] | None = None
+_last_without_time: tuple[tuple[bytes, bytes], tuple[Plan, tuple[int, int], tuple[float, float], tuple[int, int, int, int]]] | None = None

@@ -52,9 +52,14 @@ vec2 cos_sin_quarters(float quarters) {
     return turn < 2.0 ? found : -found;
 }
 
+// The same place where a part that is kept in a ring goes on beyond its end.
+vec2 unrolled(vec2 place) {
+    return place + picture_ring.zw * vec2(lessThan(place, picture_ring.xy));
+}
+
 // `place` from the middle of the picture, in right angles, or in sides of a cube's face.
 vec2 from_middle(vec2 place) {
-    vec2 pixels = (place + picture_offset) - 0.5 * picture_size;
+    vec2 pixels = (unrolled(place) + picture_offset) - 0.5 * picture_size;
 #if CAMERA_PROJECTION_CUBE
     return pixels * picture_scale;
 #else

@@ -72,6 +72,9 @@ class FakeRenderer:
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)
         return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0, settled=self.settled)
 
+    def turns(self, scene):
+        return False
+
     def still(self, scene, time, size, samples, tile):
         self.still_pixels = np.full((size[1], size[0], 3), 100, np.uint8)
         for done in range(10 * samples):

@@ -108,9 +108,10 @@ def _of_scenes() -> Iterator[Wanted]:
         yield from ((path, name, made, {}) for path in BEAM)
         yield from ((path, name, made, {"HIT_MAP_REFINED": refined, **TONE_TABLE}) for path, refined in _readers(made))
         if can_turn(made):
-            yield from ((path, name, made, {}) for path in ("turned.frag", "shifted.frag"))
+            around = plan(scene.with_values({"camera.projection": "equirectangular"}))
+            yield "turned.frag", name, around, {}
             if stars_a_pixel(scene):
-                yield "star_layer.frag", name, made, {**TURNED, **TONE_TABLE}
+                yield "star_layer.frag", name, around, {**TURNED, **TONE_TABLE}
         if scene.post.show_sky_grid:
             yield from (("shade_overlays.frag", name, made, {"OVERLAY_SKY": 1, "HIT_MAP_REFINED": refined}) for refined in (0, 1))
 

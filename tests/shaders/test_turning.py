@@ -13,7 +13,7 @@ from blackhole_gl.scene import Scene, presets
 
 SIZE = 640, 360
 PIXELS = SIZE[0] * SIZE[1]
-FRAMES = 16
+FRAMES = 44  # by then what is known of directions is as fine as the picture
 
 
 def turned(scene: Scene, n: int) -> Scene:
@@ -31,7 +31,8 @@ def shown(renderer: Renderer, scene: Scene, time: float) -> FrameReport:
 
 
 def frames(renderer: Renderer, scene: Scene, move, count: int = FRAMES) -> Iterator[FrameReport]:
-    """Reports of a movement's frames, the first of which begins it."""
+    """Reports of a movement's frames, the first of which begins it, with nothing known of directions before."""
+    shown(renderer, scene.with_values({"post.bloom_threshold": 1.1}), 0.0)
     for n in range(count):
         yield shown(renderer, move(scene, n), 0.1 * n)
 
@@ -43,25 +44,40 @@ def grey(renderer: Renderer) -> np.ndarray:
 @pytest.mark.parametrize("preset", ["kerr", "real_sky"])
 @pytest.mark.parametrize("move", [turned, zoomed])
 def test_after_the_first_few_rays_are_marched(renderer: Renderer, preset: str, move) -> None:
-    """5 % of the pixels in each frame after that in which light is kept for the first time; 1 to 3 % in the mean."""
+    """5 % of the pixels in each frame after that in which light is kept for the first time, until what is known of it is as fine as the picture, and later."""
     marched = [report.marched / PIXELS for report in frames(renderer, presets.load([preset]), move)]
     assert max(marched[2:]) <= 0.05
 
 
-@pytest.mark.parametrize("move", [turned, zoomed])
-def test_the_picture_is_the_one_of_new_rays(renderer: Renderer, move) -> None:
-    """Of 255 grey levels 2.5 off in the mean, as streaks of the disk are filtered by a part of a pixel; means over 8 × 8 pixels 1.0, and 25 at most, as none
-    is displaced. Measured are 1.9, 0.7 and 14."""
+@pytest.mark.parametrize("rate", [1.005, 1.01])
+def test_zooming_out_needs_few_rays_too(renderer: Renderer, rate: float) -> None:
+    """Half a per cent or one a frame, to two and a half times the view and more: 5 % of the pixels in each frame."""
+    scene = presets.load(["kerr"], {"camera.fov_deg": "22"})
+    out = lambda scene, n: scene.with_values({"camera.fov_deg": 22.0 * rate**n})  # noqa: E731
+    assert max(report.marched for report in list(frames(renderer, scene, out, 100))[2:]) <= 0.05 * PIXELS
+
+
+def test_zooming_to_and_fro_needs_few_rays(renderer: Renderer) -> None:
+    """In by a half and out again, at 1 % a frame."""
     scene = presets.load(["kerr"])
-    for _ in frames(renderer, scene, move):
+    sway = lambda scene, n: scene.with_values({"camera.fov_deg": scene.camera.fov_deg * 1.01 ** (abs(n - 40) - 40)})  # noqa: E731
+    assert max(report.marched for report in list(frames(renderer, scene, sway, 90))[2:]) <= 0.05 * PIXELS
+
+
+@pytest.mark.parametrize(("move", "count", "off", "blocks_off"), [(turned, FRAMES, 2.5, 1.0), (turned, 4, 5.0, 2.0), (zoomed, FRAMES, 4.0, 1.0)])
+def test_the_picture_is_the_one_of_new_rays(renderer: Renderer, move, count: int, off: float, blocks_off: float) -> None:
+    """Of 255 grey levels 2.5 off in the mean, as streaks of the disk are filtered by a part of a pixel; 5 while pixels of what is known are twice as wide, and
+    4 where they are up to one and a half times as wide. Means over 8 × 8 pixels 1.0, and 2.0 in the coarse picture; 25 and twice that at most, as nothing is
+    displaced. Measured are 1.3, 2.9 and 3.3; 0.4, 1.3 and 0.9; 8, 30 and 12."""
+    scene = presets.load(["kerr"])
+    for _ in frames(renderer, scene, move, count):
         pass
     kept = grey(renderer)
-    renderer.render(move(scene, FRAMES - 1), 0.1 * (FRAMES - 1), SIZE)
+    renderer.render(move(scene, count - 1), 0.1 * (count - 1), SIZE)
     new = grey(renderer)
     blocks = (kept - new).reshape(SIZE[1] // 8, 8, SIZE[0] // 8, 8, 3).mean(axis=(1, 3))
-    assert np.abs(kept - new).mean() < 2.5
-    print("measured", np.abs(kept - new).mean(), np.abs(blocks).mean(), np.abs(blocks).max())
-    assert np.abs(blocks).mean() < 1.0 and np.abs(blocks).max() < 25.0
+    assert np.abs(kept - new).mean() < off
+    assert np.abs(blocks).mean() < blocks_off and np.abs(blocks).max() < 25.0 * blocks_off
 
 
 def test_turning_far_moves_what_is_known_along(renderer: Renderer) -> None:

@@ -18,7 +18,7 @@ LOOKS = [(0.0, 0.0, 0.0), (170.0, 5.0, 0.0), (-60.0, 40.0, 25.0)]
 def grid_about(look: tuple[float, float, float]) -> tuple[DirectionGrid, View]:
     camera = Camera(yaw_deg=look[0], pitch_deg=look[1], roll_deg=look[2], fov_deg=42.0)
     view = View.of(camera, SIZE)
-    grid = DirectionGrid.about(camera, view, 1.0, (0.3, 0.2))
+    grid = DirectionGrid.about(camera, view, 1.0, 0.3)
     assert grid is not None
     return grid, view
 
@@ -45,19 +45,24 @@ def test_what_a_view_shows_lies_in_its_box_and_cells(look: tuple[float, float, f
 
 
 def test_a_grid_that_moves_keeps_its_pixels() -> None:
-    """Across half a turn too; to 2e-7 pixels, of a few thousand."""
+    """Across half a turn too, each where it lies in the textures; to 2e-7 pixels, of a few thousand."""
     grid, _ = grid_about((170.0, 5.0, 0.0))
-    turned = Camera(yaw_deg=-165.0, pitch_deg=3.0, fov_deg=42.0)
-    moved = grid.moved_to(View.of(turned, SIZE))
-    assert moved is not None and moved.holds(View.of(turned, SIZE)) and moved.size == grid.size
-    ahead = -look_rotation(turned)[:, 0]
-    cells = (moved.places(ahead) - grid.places(ahead)) / CELL
-    assert cells == pytest.approx(np.round(cells), abs=1e-8)
+    seen = View.of(Camera(yaw_deg=-165.0, pitch_deg=3.0, fov_deg=42.0), SIZE)
+    found = grid.moved_to(seen, 2 * CELL)
+    assert found is not None
+    moved, held = found
+    assert moved.holds(seen, 2 * CELL) and moved.size == grid.size and moved.start[0] > 0
+    ahead = -seen.look[:, 0]
+    before, now = (at.places(ahead) + at.start for at in (grid, moved))
+    assert (now - before) % grid.size == pytest.approx(0.0, abs=2e-7) or (before - now) % grid.size == pytest.approx(0.0, abs=2e-7)
+    here = grid.ahead(seen)
+    assert np.allclose(here[held], moved.ahead(seen)[held], atol=1e-12) and not np.isclose(here[~held], moved.ahead(seen)[~held], atol=1e-6).any()
+    assert 0.5 < held.mean() < 0.95
 
 
 def test_a_view_that_is_too_wide_has_no_grid() -> None:
     camera = Camera(fov_deg=140.0)
-    assert DirectionGrid.about(camera, View.of(camera, SIZE), 1.0, (0.3, 0.2)) is None
+    assert DirectionGrid.about(camera, View.of(camera, SIZE), 1.0, 0.3) is None
 
 
 def test_boxes_hold_all_cells_and_little_else() -> None:
