@@ -8,7 +8,7 @@ import pytest
 from blackhole_gl.planning import plan, steps_in_motion
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.frame_met import FrameMet
-from blackhole_gl.rendering.half_grid import narrow_balls
+from blackhole_gl.rendering.half_grid import HalfGrid, narrow_balls
 from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, presets
@@ -48,6 +48,16 @@ def test_most_of_an_explosion_is_interpolated_and_displaced_by_less_than_the_tol
     assert np.quantile(moved, 0.99) <= scene.rays.tolerance
     np.testing.assert_array_equal(found.fate, exact.fate)
     assert np.quantile(moved[own], 0.99) <= scene.rays.tolerance  # of longer steps alone
+
+
+def test_cells_along_lines_ask_for_no_such_rays(renderer: Renderer) -> None:
+    """The outlines of a few balls cost a frame 12 of 59 ms so: rays and cells about them are more than those they spare."""
+    half, nothing = HalfGrid(renderer.ctx, renderer.programs), np.zeros((45, 80), bool)
+    line, block = nothing.copy(), nothing.copy()
+    line[20:22], block[10:30, 10:30] = True, True
+    inputs = _inputs(presets.load(["objects_lorenz"]))
+    assert not half.choose(inputs, 3, nothing, line) and half.choose(inputs, 3, nothing, block)
+    half.release()
 
 
 def test_balls_behind_a_shock_wave_are_where_they_are_and_fewer_pixels_have_rays_of_their_own(renderer: Renderer) -> None:
