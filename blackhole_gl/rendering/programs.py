@@ -361,6 +361,7 @@ def _structure_of(plan: Plan) -> _Structure:
     groups = [*((slot, chosen(plan, slot)) for slot in (*RAY_SLOTS, *SHADE_SLOTS, "medium")), ("thing", things)]
     groups += [(f"thing_by_{way}", [kind for kind in things if kind.traits.meets == way]) for way in ("distance", "crossing")]
     groups.append(("thing_told_apart", [kind for kind in things if kind.traits.tells_apart]))
+    groups.append(("thing_not_placed", [kind for kind in things if kind.traits.meets == "crossing" and not kind.traits.tells_apart]))
     groups.append(("steady_medium", [kind for kind in chosen(plan, "medium") if not kind.traits.changes]))
     paths = ((slot, tuple(plug_in.path for plug_in in found)) for slot, found in groups)
     return _Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))

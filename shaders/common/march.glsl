@@ -301,7 +301,7 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
         float speed = length(velocity), near = straight_reach(found.size, x);
         float beyond = beyond_surface(found, x, velocity / speed, farther ? max(0.3 * found.size, near) : near);
         bool known = beyond < 1e29, close = abs(beyond) < CLOSE * near;
-        done = close || farther && !known;
+        done = close || farther && !known || is_placed(found);
         slip = known ? beyond / speed : 0.0;
         float moved = clamp(t + slip / way.h, max(0.5 * t, way.a.place.w > 0.0 ? 0.0 : FAR_END), 1.0);  // never where a far ray begins, which is no place
         t = done ? t : moved;
@@ -315,7 +315,11 @@ void add_meeting_found(Orbit orbit, State a, Way way, Found found, inout Hits hi
 #else
     there = state_drift(there, slip);
 #endif
-    meet(found, path_point(ray_path(orbit, there)), ray_momentum(orbit, there) AND_DELAY(there), hits);
+    vec3 place = path_point(ray_path(orbit, there));
+#if BALLS_KNOWN
+    if (is_placed(found)) place = found.place;
+#endif
+    meet(found, place, ray_momentum(orbit, there) AND_DELAY(there), hits);
 }
 
 // All that is met in a step, crossings of the disk's plane too, in order, the first thing or medium being `found`. Returns whether the ray ends on something opaque.

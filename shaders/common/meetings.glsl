@@ -150,15 +150,24 @@ bool is_apart(int kind, int index, vec3 x, vec3 y, float stray) {
     return false;
 }
 
+#if BALLS_KNOWN
+#define AND_PLACE(x) , x
+#else
+#define AND_PLACE(x)
+#endif
+
 // What was found.
 struct Found {
     int kind, index;  // MEETING_NONE: nothing
     float at;         // where: part of a piece, or parameter of a curve
     float size;       // half the width of what was found, r_s
     bool enters;
+#if BALLS_KNOWN
+    vec3 place;       // on the piece that has met it
+#endif
 };
 
-const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true);
+const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true AND_PLACE(vec3(0.0)));
 
 // Of media only the first that is entered is kept: transfer.frag goes on from there, and finds the others and the ways out itself.
 void meet(Found found, vec3 place, Momentum momentum AND_TIME(float delay), inout Hits hits) {
@@ -185,10 +194,11 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
             float size = size_of(ball.kind, ball.index);
             float own = max(stray_allowed(size), rounding(x, y));  // no finer than single precision
             if (tells_apart(ball.kind)) own = max(own, unseen_stray(x));
-            if (stray <= own || !is_apart(ball.kind, ball.index, x, y, stray)) allowed = min(allowed, own);
-            bool enters;
-            float part = met_part(ball.kind, ball.index, size, x, y, enters);
-            if (part < found.at) found = Found(ball.kind, ball.index, part, size, enters);
+            bool fine = stray <= own, enters;
+            if (fine || !is_apart(ball.kind, ball.index, x, y, stray)) allowed = min(allowed, own);
+            float part = 2.0;
+            if (fine) part = met_part(ball.kind, ball.index, size, x, y, enters);
+            if (part < found.at) found = Found(ball.kind, ball.index, part, size, enters AND_PLACE(mix(x, y, part)));
         }
         left = stray > allowed ? 0u : left;
     }
@@ -312,12 +322,25 @@ Found next_meeting(Way way, float from, float to, int first) {
     return found;
 }
 
-// How far on along the unit vector `onward` from x what tells no distance is met: looked for as far as `most` before x and behind it; 1e30: it is not.
+// How far on along the unit vector `onward` from x what tells no distance is met: looked for as far as `most` before x and behind it; 1e30: it is not, or `is_placed`.
 float crossing_beyond(Found found, vec3 x, vec3 onward, float most) {
     bool ignored;
     float part = 2.0;
+#if BALLS_KNOWN
+#each thing_not_placed : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
+#else
 #each thing_by_crossing : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
+#endif
     return part <= 1.0 ? (2.0 * part - 1.0) * most : 1e30;
+}
+
+// Whether what was found is where the piece has it: what tells_apart may be displaced in a picture that moves by as much as a piece of its way strays.
+bool is_placed(Found found) {
+#if BALLS_KNOWN
+    return tells_apart(found.kind);
+#else
+    return false;
+#endif
 }
 
 // How far a surface may be from where a curve has it, so that a straight way leads there; r_s.
@@ -345,7 +368,7 @@ float beyond_surface(Found found, vec3 x, vec3 onward, float most) {
 
 // A ray that begins inside a medium, at a camera there, has gone into it where it begins.
 void meet_at_start(vec3 x, Momentum momentum, inout Hits hits) {
-#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true), x, momentum AND_TIME(0.0), hits);
+#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true AND_PLACE(x)), x, momentum AND_TIME(0.0), hits);
 }
 
 #if !RAYS_LIGHT_TRAVEL  // models of straight rays tell no times

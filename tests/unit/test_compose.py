@@ -117,7 +117,7 @@ def test_a_ray_plug_in_that_lacks_a_function_that_others_call_is_named(shaders, 
     assert (caught.value.file, caught.value.line) == (str(tmp_path / "own" / f"{at_fault}.glsl"), 1)
 
 
-NOTHING_MET = {name: [] for name in ("thing", "thing_by_distance", "thing_by_crossing", "thing_told_apart", "medium")}
+NOTHING_MET = {name: [] for name in ("thing", "thing_by_distance", "thing_by_crossing", "thing_told_apart", "thing_not_placed", "medium")}
 SHIPPED = {"ray_model": "ray_models/schwarzschild_binet.glsl", "integrator": "integrators/rk4.glsl", "step_control": "step_controls/radius.glsl"}
 
 
