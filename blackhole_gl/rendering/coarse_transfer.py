@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -10,13 +10,14 @@ import numpy as np
 
 from ..planning import plan as make_plan
 from ..scene import FrozenMap
-from .boxes import Box, bands_of
+from .boxes import Box
 from .classes import EVERYWHERE, Where, drawn
+from .coarse_targets import BETWEEN, OWN, CoarseTargets, named
 from .hit_map import HitMap
 from .inputs import FrameInputs
-from .kept_samples import MOST_KEPT, MOST_SAMPLES, KeptSamples, can_keep
+from .kept_samples import MOST_SAMPLES, KeptSamples, can_keep
 from .programs import Draw, Programs, Samplers
-from .ray_lists import RayList, in_blocks
+from .ray_lists import RayList
 from .target import Target
 from .transfer import changes, stretches
 
@@ -32,10 +33,7 @@ FINE, FINE_IN_MOTION = 1e-3, 0.05
 LAGS = 0.25
 """Scene time in r_s/c by which a part of a moving pattern may stay behind the rest: a brush of light moves by less than a pixel in it."""
 
-# By shaders/transfer_marks.frag.
-_OWN, _BETWEEN = Where(">", 0.375), Where("<", 0.625)
-
-_SQUARE, _BAND = 16, 2  # pixels along the sides of squares, and rows of these, that what media are drawn in is kept to
+_A_FRAME = 30_000  # rays of a grid that are marched between two pictures for one to come
 
 
 @dataclass(frozen=True)
@@ -100,7 +98,8 @@ class CoarseTransfer:
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self.marches = 0
-        self._made: _Made | None = None
+        self._made: CoarseTargets | None = None
+        self._coming: _Coming | None = None
         self._last: _Last | None = None
         self._marked: tuple | None = None
 
@@ -111,10 +110,8 @@ class CoarseTransfer:
 
     def draw(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> None:
         """Fills the textures for all pixels of `hit_map`, unless they hold just that; `samplers` are what rays look things up in."""
-        inputs = media.inputs
-        march = self._programs.get("transfer.frag", inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": 1})
-        blocks = hit_map.generation if media.apart else 0  # of which pixels they are
-        asked = _Asked(media, hit_map, samplers, march, (replace(inputs, time=0.0), blocks, march.serial, media.step))
+        inputs, asked = media.inputs, self._asked(media, hit_map, samplers)
+        self._take_coming(asked)
         made = self._targets(inputs.size, stretches(inputs.plan), media.step, apart=media.apart)
         begins = self._last is None or self._last.rays != asked.rays
         if begins:
@@ -129,7 +126,41 @@ class CoarseTransfer:
             if not begins and not made.is_told:
                 self._tell(tell, asked, made)
 
-    def _draw_grid(self, asked: _Asked, made: _Made) -> None:
+    def prepare(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> bool:
+        """Marches some of the rays whose samples the next picture of the same view sums, while the last one's media are shown. Returns whether all is told."""
+        if not (media.rests and can_keep(media.inputs.plan)):
+            return True
+        asked = self._asked(media, hit_map, samplers)
+        if self._coming is None or self._coming.rays != asked.rays:
+            if self._coming is not None:
+                self._coming.made.release()
+            self._coming = _Coming(asked.rays, CoarseTargets(self._ctx, media.inputs.size, stretches(media.inputs.plan), media.step, apart=media.apart))
+        coming, made = self._coming, self._coming.made
+        if coming.rows < made.grid.size[1]:
+            first, coming.rows = coming.rows, min(coming.rows + max(_A_FRAME // made.grid.size[0], 1), made.grid.size[1])
+            self._march(asked, made.grid.frame, (float(media.step), media.footprint), made.own, (first, coming.rows))
+            if coming.rows == made.grid.size[1]:
+                self._mark(asked, made)
+        elif not made.is_told:
+            self._tell(self._telling(asked), asked, made)
+        return coming.rows == made.grid.size[1] and made.is_told
+
+    def _take_coming(self, asked: _Asked) -> None:
+        """Goes on with what was prepared, if that is what is `asked` for."""
+        coming = self._coming
+        if coming is None or coming.rays != asked.rays or not coming.made.is_told:
+            return
+        if self._made is not None:
+            self._made.release()
+        self._made, self._coming, self._marked = coming.made, None, asked.rays
+        self._last = _Last(asked.rays, -np.inf, -np.inf)
+
+    def _asked(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> _Asked:
+        march = self._programs.get("transfer.frag", media.inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": 1})
+        blocks = hit_map.generation if media.apart else 0  # of which pixels they are
+        return _Asked(media, hit_map, samplers, march, (replace(media.inputs, time=0.0), blocks, march.serial, media.step))
+
+    def _draw_grid(self, asked: _Asked, made: CoarseTargets) -> None:
         """The grid, and what lies between its rays; the whole picture where each of its pixels has one."""
         if made.samples.is_whole:
             self._sum(asked, made, made.samples, made.grid, EVERYWHERE)
@@ -142,18 +173,18 @@ class CoarseTransfer:
         if asked.rays != self._marked:
             self._mark(asked, made)
             self._marked = asked.rays
-        self._join(asked.media, made, _BETWEEN)
+        self._join(asked.media, made, BETWEEN)
 
-    def _draw_own(self, asked: _Asked, made: _Made) -> None:
+    def _draw_own(self, asked: _Asked, made: CoarseTargets) -> None:
         """The rays beside the grid's."""
         if made.own_samples.is_whole:
-            self._sum(asked, made, made.own_samples, made.whole, _OWN)
+            self._sum(asked, made, made.own_samples, made.whole, OWN)
             return
         listed = made.listed(self._ctx, made.own)
-        self._march(asked, listed.frame, (-1.0, asked.media.footprint), made.own, made.own.rows)
-        self._spread(asked.media, made.own, listed, made.whole, _OWN, made.bands.get(_OWN))
+        self._march(asked, listed.frame, (-1.0, asked.media.footprint), made.own, (0, made.own.rows))
+        self._spread(asked.media, made.own, listed, made.whole, OWN, made.bands.get(OWN))
 
-    def _sum(self, asked: _Asked, made: _Made, samples: KeptSamples, target: Target, where: Where) -> None:
+    def _sum(self, asked: _Asked, made: CoarseTargets, samples: KeptSamples, target: Target, where: Where) -> None:
         """What `samples` show at the frame's time, into `target`."""
         self.marches += 1
         listed = made.listed(self._ctx, samples.list)
@@ -168,7 +199,7 @@ class CoarseTransfer:
     def _telling(self, asked: _Asked) -> Draw:
         return self._programs.get("transfer.frag", asked.media.inputs, {**asked.hit_map.switches(), "GRID": 1, "SAMPLES": 1, "FROM_CAMERA": 1})
 
-    def _tell(self, march: Draw, asked: _Asked, made: _Made) -> None:
+    def _tell(self, march: Draw, asked: _Asked, made: CoarseTargets) -> None:
         """Some more of the samples on rays that have stayed."""
         samples, pixels, step = made.untold()
         if not samples.begun:
@@ -190,22 +221,24 @@ class CoarseTransfer:
         self._last = _Last(rays, time if grid else last.grid, time if own else last.own, grid_is_older=own if grid != own else last.grid_is_older)
         return grid, own
 
-    def _march(self, asked: _Asked, frame: moderngl.Framebuffer, spacing: tuple[float, float], rays: RayList, rows: int | None = None) -> None:
-        """Into all of `frame`, or that many rows of it; `spacing` as in shaders/transfer.frag."""
+    def _march(
+        self, asked: _Asked, frame: moderngl.Framebuffer, spacing: tuple[float, float], rays: RayList, rows: tuple[int, int] | None = None
+    ) -> None:
+        """Into all of `frame`, or from one row up to another; `spacing` as in shaders/transfer.frag."""
         self.marches += 1
         asked.march.sample({**asked.samplers, "ray_pixels": rays.pixels})
         _prepare(asked.march, asked)
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
         frame.use()
         asked.march.set(ray_spacing=spacing)
-        self._ctx.scissor = None if rows is None else (0, 0, frame.width, rows)
+        self._ctx.scissor = None if rows is None else (0, rows[0], frame.width, rows[1] - rows[0])
         asked.march.draw()
         self._ctx.scissor = None
 
     @property
     def samplers(self) -> Mapping[str, moderngl.Texture]:
         """What shaders/common/stretches.glsl reads, by name."""
-        return {} if self._made is None else _named(self._made.whole)
+        return {} if self._made is None else named(self._made.whole)
 
     @property
     def shown(self) -> Sequence[Box] | None:
@@ -216,11 +249,13 @@ class CoarseTransfer:
         """Gives the GL objects back."""
         if self._made is not None:
             self._made.release()
-        self._made = self._last = self._marked = None
+        if self._coming is not None:
+            self._coming.made.release()
+        self._made = self._coming = self._last = self._marked = None
 
-    def _mark(self, asked: _Asked, made: _Made) -> None:
+    def _mark(self, asked: _Asked, made: CoarseTargets) -> None:
         cells = self._programs.get("transfer_cells.frag", asked.media.inputs)
-        cells.sample(_named(made.grid))
+        cells.sample(named(made.grid))
         made.cells.frame.use()
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
         cells.draw()
@@ -234,9 +269,9 @@ class CoarseTransfer:
         made.clear()
         made.note(depth)
 
-    def _join(self, media: MediaApart, made: _Made, where: Where) -> None:
+    def _join(self, media: MediaApart, made: CoarseTargets, where: Where) -> None:
         join = self._programs.get("transfer_join.frag", media.inputs)
-        join.sample(_named(made.grid))
+        join.sample(named(made.grid))
         factors = [1.0 / (media.step * side) for side in made.grid.size]
         offsets = [0.0 if media.apart else 0.5 / side - 0.5 * factor for side, factor in zip(made.grid.size, factors)]
         join.set(pixels_to_grid=(*factors, *offsets))
@@ -245,7 +280,7 @@ class CoarseTransfer:
     def _spread(self, media: MediaApart, rays: RayList, listed: Target, target: Target, where: Where, bands: Sequence[Box] | None) -> None:
         """What the rays of a list show, into their own pixels of `target`."""
         spread = self._programs.get("transfer_join.frag", media.inputs, {"LISTED": 1})
-        spread.sample({**_named(listed), "places": rays.places})
+        spread.sample({**named(listed), "places": rays.places})
         self._fill(spread, target, where, bands)
 
     def _fill(self, draw: Draw, target: Target, where: Where, bands: Sequence[Box] | None) -> None:
@@ -258,10 +293,10 @@ class CoarseTransfer:
             else:
                 draw.draw_boxes(bands)
 
-    def _targets(self, size: tuple[int, int], count: int, step: int, *, apart: bool) -> _Made:
+    def _targets(self, size: tuple[int, int], count: int, step: int, *, apart: bool) -> CoarseTargets:
         if self._made is None or self._made.made_for != (size, count, step, apart):
             self.release()
-            self._made = _Made(self._ctx, size, count, step, apart=apart)
+            self._made = CoarseTargets(self._ctx, size, count, step, apart=apart)
         return self._made
 
 
@@ -281,6 +316,15 @@ class _Last:
     grid_is_older: bool = False
 
 
+@dataclass(eq=False)
+class _Coming:
+    """What is prepared for a picture to come: of which rays, and the rows of their grid that are marched."""
+
+    rays: tuple
+    made: CoarseTargets
+    rows: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class _Asked:
     """What is to be drawn: media, the hits and tables that their rays are known by, the march, and a key of all rays."""
@@ -295,113 +339,3 @@ class _Asked:
 def _prepare(march: Draw, asked: _Asked) -> None:
     march.set(meeting_reach=march.inputs.plan.reach, fine_share=asked.media.fine)
     asked.hit_map.tell_blocks(march)
-
-
-class _Made:
-    """Textures, a pair for each stretch, of a picture's size, of the grid's, and of a list's.
-
-    Attributes:
-        made_for: the picture's size, the stretches, the pixels from ray to ray, and whether its rays lie apart.
-        grid: `whole` itself where each pixel has a ray.
-        marks: draws into `depth`.
-        depth: of `whole`: which pixels are marched by themselves.
-        cells: of the grid, as shaders/transfer_cells.frag tells them.
-        bands: parts of the picture, none over another, that hold all pixels between rays that meet media, and all marched by themselves; empty where rays lie
-            apart.
-        shown: the same of both, None where rays lie apart.
-        own: those pixels.
-        samples, own_samples: those of the grid's rays and of `own`.
-    """
-
-    def __init__(self, ctx: moderngl.Context, size: tuple[int, int], count: int, step: int, *, apart: bool):
-        self.made_for = size, count, step, apart
-        self.depth = ctx.depth_texture(size)
-        coarse = -(-(size[0] - 1) // step) + 1, -(-(size[1] - 1) // step) + 1
-        self.whole = Target.of(ctx, [_texture(ctx, size) for _ in range(2 * count)], self.depth)
-        self.grid = self.whole
-        if step > 1:
-            grid = [_texture(ctx, coarse, "f4" if place == 1 else "f2") for place in range(2 * count)]  # a ray's history is the second's alpha
-            for texture in [] if apart else grid:
-                texture.filter = moderngl.LINEAR, moderngl.LINEAR
-            self.grid = Target.of(ctx, grid)
-        self.marks = ctx.framebuffer([], self.depth)
-        self.own = RayList(ctx, (1, 1) if apart else size)
-        self.samples, self.own_samples = KeptSamples(ctx, coarse), KeptSamples(ctx, (1, 1) if apart else size)
-        self.cells = Target.of(ctx, [ctx.texture(self.grid.size, 1, dtype="f4")])
-        self.cells.texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        self.bands: dict[Where, Sequence[Box]] = {}
-        self.shown: Sequence[Box] | None = None
-        self._dear = False  # too many samples to be kept
-        self._listed: Target | None = None
-
-    def clear(self) -> None:
-        """Empties the picture of what it was filled with by the last bands."""
-        self.whole.frame.depth_mask = False
-        if self.shown is None:
-            self.whole.frame.clear()
-        for box in self.shown or ():
-            self.whole.frame.clear(viewport=box)
-
-    def note(self, depth: np.ndarray) -> None:
-        """Takes in what shaders/transfer_marks.frag has found, float32 (height, width)."""
-        self.own.hold(in_blocks(_OWN.holds(depth)))
-        own, between = _squares(_OWN.holds(depth)), _squares(_BETWEEN.holds(depth))
-        self.bands = {where: list(bands_of(held, self.whole.size, _SQUARE, _BAND)) for where, held in ((_OWN, own), (_BETWEEN, between))}
-        self.shown = list(bands_of(own | between, self.whole.size, _SQUARE, _BAND))
-
-    @property
-    def is_told(self) -> bool:
-        """Whether nothing is left to be told of samples."""
-        return self._dear or self.samples.is_whole and (self.own_samples.is_whole or not self.own.count)
-
-    def forget(self) -> None:
-        """Rays are others from now on."""
-        self.samples.forget()
-        self.own_samples.forget()
-        self._dear = False
-
-    def untold(self) -> tuple[KeptSamples, Callable[[], np.ndarray], int]:
-        """The samples that are told next, what tells their pixels, and the pixels from ray to ray."""
-        if self.samples.is_whole:
-            return self.own_samples, lambda: self.own.held, 1
-        return self.samples, self._meeting, self.made_for[2]
-
-    def _meeting(self) -> np.ndarray:
-        """The rays of the grid that have met media, as it was marched; where they have too many pieces to be kept, that is known from then on."""
-        texture = self.grid.textures[0]
-        pieces = np.frombuffer(texture.read(), np.float16).reshape(texture.height, texture.width, 4)[..., 3]
-        self._dear = float(pieces.sum(dtype=np.float64)) > MOST_KEPT
-        return in_blocks(pieces > 0.0)
-
-    def listed(self, ctx: moderngl.Context, rays: RayList) -> Target:
-        """Of the size of the list."""
-        if self._listed is None or self._listed.size != rays.size:
-            if self._listed is not None:
-                self._listed.release()
-            self._listed = Target.of(ctx, [_texture(ctx, rays.size) for _ in self.whole.textures])
-        return self._listed
-
-    def release(self) -> None:
-        for item in (self.whole, self.cells, self.marks, self.depth, self.own, self._listed, self.samples, self.own_samples):
-            if item is not None:
-                item.release()
-        if self.grid is not self.whole:
-            self.grid.release()
-
-
-def _squares(held: np.ndarray) -> np.ndarray:
-    """Which squares hold any of the pixels `held`, bool (rows, columns)."""
-    rows, columns = (np.arange(0, side, _SQUARE) for side in held.shape)
-    return np.logical_or.reduceat(np.logical_or.reduceat(held, rows, axis=0), columns, axis=1)
-
-
-def _texture(ctx: moderngl.Context, size: tuple[int, ...], dtype: str = "f2") -> moderngl.Texture:
-    texture = ctx.texture((size[0], size[1]), 4, dtype=dtype)
-    texture.filter = moderngl.NEAREST, moderngl.NEAREST
-    texture.repeat_x = texture.repeat_y = False
-    return texture
-
-
-def _named(target: Target) -> dict[str, moderngl.Texture]:
-    return {f"{('gathered', 'dimmed')[place % 2]}{place // 2}": texture for place, texture in enumerate(target.textures)}
-

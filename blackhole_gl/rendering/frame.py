@@ -137,6 +137,7 @@ class Renderer:
         radiance = self._kept_or_shaded(rest, media, motion)
         telling = telling or self.coarse_transfer.tells
         marched = not progressive or self._march_exactly(inputs, rest, passes=glow_may_last, stays=not traced or self.hit_map.sharpened)
+        telling = telling or not marched
         self._stamp(stamps, measure)
         self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
@@ -153,11 +154,13 @@ class Renderer:
         return self._turns.would_turn(scene) and can_turn(make_plan(scene))
 
     def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
-        """Whether all is there of the media that the next picture shows exactly, if it does; where the view `stays`, some more of their rays are marched."""
+        """Whether all is there of the media that the next picture shows at rest; where the view `stays`, some more of their rays are marched."""
         media = coarse_transfer.of(inputs, moving=False, passes=passes)
-        if media is None or not media.exact:
+        if media is None:
             return True
-        return stays and self.hit_map.is_sharp and self._shade.march_apart(rest, media, self.hit_map)
+        if not (stays and self.hit_map.is_sharp):
+            return not media.exact
+        return self._shade.march_apart(rest, media, self.hit_map) if media.exact else self._shade.prepare_coarse(media, self.hit_map)
 
     def draw_stars(self, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> None:
         """Adds the single stars that the last `render` left out to its picture enlarged, which `viewport` (x, y, width, height) of `target` holds.

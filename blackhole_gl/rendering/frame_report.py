@@ -14,7 +14,7 @@ class FrameReport:
         traced: whether rays of the hit map were traced; False when what is kept of it, or of directions, served.
         marched: how many rays were, for the picture's pixels and for what it keeps of directions beside it.
         sharp: whether every pixel had a ray of its own.
-        sharpened: whether the rays traced only made a slice of a kept map exact, or told what lies along kept ones, so that what it took says little.
+        sharpened: whether the rays traced only made a slice of a kept map exact, or were for a picture to come, so that what it took says little.
         method: the plan's method in a few words.
         reasons: why the plan chose it.
         warnings: what it makes worse than the scene asks.

@@ -41,14 +41,14 @@ class _Going:
     Attributes:
         rays: numbers, in the list as it was given, of those that go on.
         last, momenta: where and how, as shaders/transfer.frag told it.
-        samples: of each number, whose they are, and place, gains and losses.
+        samples: of each number, whose they are, their places and stretches, and as half floats gains and losses.
     """
 
     rays: np.ndarray
     last: np.ndarray
     momenta: np.ndarray
     begins: bool = True
-    samples: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)
+    samples: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = field(default_factory=list)
 
 
 class KeptSamples:
@@ -98,18 +98,18 @@ class KeptSamples:
         self._going = _Going(np.arange(len(pixels)), none, none)
 
     def march_on(self, march: Draw, samplers: Samplers, spacing: tuple[float, float]) -> None:
-        """Tells of some more by `march`, shaders/transfer.frag with samples, which looks things up in `samplers`; `spacing` is its own."""
+        """Tells of some more by `march`, shaders/transfer.frag with samples, which looks things up in `samplers`, or lays all out; `spacing` is its own."""
         going, spent = self._going, 0
         while going is not None and spent < _A_FRAME and len(going.rays) and len(going.samples) < MOST_SAMPLES:
             spent += len(going.rays)
             told = self._march(march, samplers, going, spacing)
             for number in (0, 1):
-                sample = told[3 * number : 3 * number + 3]
-                there = sample[0, :, 3] >= 0.0
-                going.samples.append((going.rays[there], sample[:, there].copy()))
+                places, gains, loses = told[3 * number : 3 * number + 3]
+                there = places[:, 3] >= 0.0
+                going.samples.append((going.rays[there], places[there], gains[there].astype(np.float16), loses[there].astype(np.float16)))
             on = told[6, :, 3] >= 0.0
             going.rays, going.last, going.momenta, going.begins = going.rays[on], told[6, on].copy(), told[7, on].copy(), False
-        if going is not None and (not len(going.rays) or len(going.samples) >= MOST_SAMPLES):
+        if going is not None and not spent and (not len(going.rays) or len(going.samples) >= MOST_SAMPLES):
             self._lay(going)
             self._going, self.is_whole = None, True
 
@@ -159,7 +159,7 @@ class KeptSamples:
     def _lay(self, going: _Going) -> None:
         """Puts all samples where `sum` looks for them, rays with most of them first."""
         counts = np.zeros(len(self._pixels), int)
-        for rays, _ in going.samples:
+        for rays, *_ in going.samples:
             counts[rays] += 1
         order = np.argsort(-counts, kind="stable")
         place = np.empty(len(order), int)
@@ -168,12 +168,14 @@ class KeptSamples:
         rows = [rows_of(int(np.count_nonzero(counts > number))) for number in range(MOST_SAMPLES)]
         self._first_rows = np.concatenate([[0], np.cumsum(rows)])
         height = max(int(self._first_rows[-1]), 1)
-        laid = np.zeros((3, WIDE * height, 4), np.float32)
-        laid[0, :, 3] = -1.0
+        laid = [np.zeros((WIDE * height, 4), kind) for kind in (np.float32, np.float16, np.float16)]
+        laid[0][:, 3] = -1.0
         numbers = numbers_of(max(rows[0], 2))
         had = np.zeros(len(order), int)
-        for rays, sample in going.samples:
-            laid[:, numbers[place[rays]] + WIDE * self._first_rows[had[rays]]] = sample
+        for rays, *sample in going.samples:
+            at = numbers[place[rays]] + WIDE * self._first_rows[had[rays]]
+            for all_of_them, values in zip(laid, sample):
+                all_of_them[at] = values
             had[rays] += 1
         for texture in self._atlas:
             texture.release()
@@ -181,7 +183,6 @@ class KeptSamples:
 
 
 def _texture(ctx: moderngl.Context, size: tuple[int, int], kind: str, values: np.ndarray | None = None) -> moderngl.Texture:
-    data = None if values is None else values.astype({"f2": np.float16, "f4": np.float32}[kind]).tobytes()
-    texture = ctx.texture(size, 4, data, dtype=kind)
+    texture = ctx.texture(size, 4, values, dtype=kind)
     texture.filter = moderngl.NEAREST, moderngl.NEAREST
     return texture

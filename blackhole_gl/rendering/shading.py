@@ -142,6 +142,11 @@ class ShadePass:
         classes = hit_map.classes or self._sorted_pixels(inputs, hit_map)
         return self._march_media(media.inputs, hit_map, classes, EVERYWHERE, {"FROM_CAMERA": 1}, _A_FRAME)
 
+    def prepare_coarse(self, media: MediaApart, hit_map: HitMap) -> bool:
+        """The same of the `media` of a picture that only time changes, as `CoarseTransfer.prepare` tells."""
+        self._stretches = {}
+        return self.coarse_transfer.prepare(media, hit_map, self._samplers(media.inputs, hit_map))
+
     def _march_media(
         self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture, where: Where, switches: Mapping[str, int], most: int | None = None
     ) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.planning import plan as make_plan
-from blackhole_gl.rendering import coarse_transfer
+from blackhole_gl.rendering import coarse_targets, coarse_transfer
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, presets
@@ -115,6 +115,25 @@ def test_samples_on_rays_that_stay_show_what_a_march_does(renderer: Renderer) ->
     assert off < 1e-3 and moved > 5.0 * off
 
 
+def test_samples_are_told_before_a_stopped_camera_shows_them(renderer: Renderer) -> None:
+    """A few rays a frame, while media are shown as in motion. The first sharp picture is then summed over samples, as that of a camera that never moved."""
+    scene = presets.load(["kerr"], SLAB | WITHOUT_DISK | {"media.slab.depth": 1.02})
+    for turn in range(8):
+        renderer.render(scene, 5.0 + turn, SIZE, glow_may_last=True)
+    renderer.render(scene, 2.0, SIZE, glow_may_last=True)
+    never_moved = stretches_of(renderer)
+    renderer.render(scene.with_values({"camera.inclination_deg": scene.camera.inclination_deg + 1.0}), 1.0, SIZE, progressive=True)
+    for number in range(60):
+        report = renderer.render(scene, 1.0 + 0.01 * number, SIZE, progressive=True, glow_may_last=True)
+        if report.sharp:
+            break
+    assert report.sharp and number > 3
+    renderer.render(scene, 2.0, SIZE, glow_may_last=True)
+    made = renderer.coarse_transfer._made
+    assert made is not None and made.samples.is_whole and made.own_samples.is_whole
+    np.testing.assert_array_equal(stretches_of(renderer), never_moved)
+
+
 def test_no_program_of_samples_is_missing_once_a_picture_at_rest_was_drawn(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     """A window prepares a scene anew where one is: those of samples were missed in every picture at rest, which therefore never became sharp."""
     scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
@@ -127,7 +146,7 @@ def test_no_program_of_samples_is_missing_once_a_picture_at_rest_was_drawn(rende
 
 
 def test_where_samples_would_be_too_many_rays_are_marched_on(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(coarse_transfer, "MOST_KEPT", 0)
+    monkeypatch.setattr(coarse_targets, "MOST_KEPT", 0)
     scene = presets.load(["kerr"], SLAB | BEFORE_DISK | {"rays.lensing": True, "media.slab.depth": 1.01})
     renderer.render(scene, 1.0, SIZE, glow_may_last=True)
     marched = stretches_of(renderer)
