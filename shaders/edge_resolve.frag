@@ -17,9 +17,10 @@ void main() {
     int side = 2 * pairs;
     ivec2 first = side * ivec2(block);
     vec4 sum = vec4(0.0);
-    int k = 0;
+    ivec2 ray = ivec2(0);
     do {
-        sum += texelFetch(block_radiance, first + ivec2(k % side, k / side), 0);
-    } while (++k < side * side);
+        sum += texelFetch(block_radiance, first + ray, 0);
+        ray = ray.x + 1 < side ? ivec2(ray.x + 1, ray.y) : ivec2(0, ray.y + 1);
+    } while (ray.y < side);
     radiance = sum / float(side * side);
 }
