@@ -79,7 +79,7 @@ class Targets:
         """Draws what is not shown; returns the report. At the start, where there is nothing else to show, it is, and has its stars with the rest."""
         if self._shown is None and self._in_window is None:
             return self.render(replace(drawing, shown=drawing.size))
-        return self._draw(drawing, self._spare_of(drawing.shown).frame, (0, 0, *drawing.shown))
+        return self._draw(drawing, self._spare_of(drawing.shown).frame, (0, 0, *drawing.shown), may_turn=False)
 
     def render_into(self, window: moderngl.Framebuffer, area: Area, drawing: Drawing) -> Any:
         """Draws into `area` of `window`; returns the report."""
@@ -130,14 +130,14 @@ class Targets:
         data = np.frombuffer(self._shown.frame.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1]
 
-    def _draw(self, drawing: Drawing, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int]) -> Any:
+    def _draw(self, drawing: Drawing, target: moderngl.Framebuffer, viewport: tuple[int, int, int, int], *, may_turn: bool = True) -> Any:
         """Draws into `viewport` (x, y, width, height), which has the size that the drawing is shown with; returns the report."""
         render = partial(
             self._renderer.render,
             *(drawing.scene, drawing.time, drawing.size),
             measure=True,
             progressive=drawing.progressive,
-            may_turn=drawing.progressive,
+            may_turn=drawing.progressive and may_turn,
             glow_may_last=drawing.passes,
         )
         if drawing.size == drawing.shown:

@@ -57,6 +57,17 @@ class View:
         """The angle in radians of a pixel in the middle."""
         return 2.0 * self.half[1] / self.size[1]
 
+    def going_on(self, before: View, pixels: int) -> View:
+        """Where it will be when it has gone on by so many `pixels` as it has come from `before`; itself where it rests, or goes as far in one step."""
+        if self.size != before.size:
+            return self
+        turn, zoom = self.look @ before.look.T, self.half[0] / before.half[0]
+        angle = math.acos(min(max(0.5 * (float(np.trace(turn)) - 1.0), -1.0), 1.0))
+        step = angle / self.pixel + 0.5 * abs(zoom - 1.0) * self.size[0]
+        steps = int(pixels / step) if step > 1e-3 else 0
+        grown = zoom**steps
+        return replace(self, look=np.linalg.matrix_power(turn, steps) @ self.look, half=(grown * self.half[0], grown * self.half[1]))
+
     @property
     def mesh_side(self) -> int:
         """Side in pixels of the quads of a mesh so fine that the angles of directions are linear in each of them to a quarter of a pixel. A multiple of what
@@ -216,7 +227,9 @@ class DirectionGrid:
 
 
 def _step(first: int, side: int, most: int) -> int:
-    """By how many pixels, whole cells of them, a part of `most` is to move for `side` pixels from the place `first` in it on to lie within."""
+    """By how many pixels, whole cells, a part of `most` is to move for `side` pixels from the place `first` in it on to lie within it, or in its middle."""
+    if side > most - CELL:
+        return round((first + 0.5 * (side - most)) / CELL) * CELL
     if first < 0:
         return first // CELL * CELL
     return -(-max(first + side - most, 0) // CELL) * CELL

@@ -22,7 +22,7 @@ from ..planning import Plan
 from ..scene import Scene
 from ..shapes import Bool, Int
 from . import kept_light
-from .boxes import Box
+from .boxes import Box, joined
 from .direction_grid import CELL, DirectionGrid, View
 from .inputs import FrameInputs
 from .known_light import KnownLight
@@ -51,11 +51,11 @@ _ZOOMS = 1e-3  # change of a view's pixel from frame to frame from which on it d
 # holds fewer than so many widths of the view not either.
 _FRAMES_OUT, _MOST_OUT, _SOFT, _TIGHT = 70, 2.0, 0.7, 1.3
 _MOST = 0.042  # share of the picture's pixels that get rays in a frame, if the view needs no more
-_LEAP = 0.2  # the same, where a coarse grid is begun instead
+_LEAP, _COARSEST = 0.2, 0.3  # the same, where a coarse grid is begun instead; and how fine one is of what the view needs, for which it is, too
 _WORTH, _WORTH_OUT = (0.7, 1.6), (0.45, 1.0)  # how fine the pixels of a grid that is being made may be, of what the view needs; while that zooms out
 _AHEAD = CELL  # pixels beside a view of which none is left out when more of it is traced
-_BESIDE = 3 * CELL  # that a grid has on each side, but about the poles
-_SPARE = 12  # pixels beside a view that are drawn with it where nothing but the view moves
+_BESIDE, _MOVED = 4 * CELL, 7 * CELL  # pixels that a grid has on each side of a view, but about the poles; and when it has been moved
+_SPARE = 48  # pixels beside a view that are traced before it comes to them, and drawn where nothing but the view moves
 _FEW = 4  # stars in a pixel: of a sky that may show more all but the brightest would become a haze
 _SINGLE = 0.95  # as for pictures that are shown a little larger: stars that can be seen singly are left to the picture shown
 
@@ -157,9 +157,12 @@ class TurningPass:
         if known is None:
             return False
         inputs = known.inputs(plan, time)
+        coming = view if self._shown is None else view.going_on(self._shown[1], _SPARE)
         made, self._extended = self._made, 0
         if made is None or not made.serves(known, inputs, view):
-            made = self._made = self._make(known, inputs, plan, view)
+            made = self._made = self._make(known, inputs, plan, view, coming)
+        elif self._is_short(known, view, coming):  # the picture stands: there is time to look ahead
+            self._extend_for(known, inputs, view, coming)
         self._turn(known, inputs, view, made.box, target, viewport)
         if self._next is not None:
             self._extend_next(self._next, plan, time, view)
@@ -205,18 +208,24 @@ class TurningPass:
         if self._next is not None and self._is_ready(self._next, view):
             self._take(self._next)
             self._next = None
-        if self._known is None or not self._follow(self._known, view) or self._lacks(self._known, view) > _LEAP * view.size[0] * view.size[1]:
+        if self._known is None or not self._serves(self._known, plan, view):
             self._take(self._begun(key, plan, view, shown, _COARSE, zoom))
         if self._known is not None and self._next is None and plan.scene.camera != before.camera:
             wider = _wanted(self._known.grid, view, _finer(plan), zoom)
             self._next = None if wider is None else self._begun(key, plan, view, shown, wider, zoom)
         return self._known
 
+    def _serves(self, known: KnownLight, plan: Plan, view: View) -> bool:
+        """Whether what is `known` will do for `view`: it holds that, has most of it, and is not far coarser than it."""
+        if not self._follow(known, view) or _scale(known.grid, view, _finer(plan)) < _COARSEST:
+            return False
+        return self._lacks(known, view) <= _LEAP * view.size[0] * view.size[1]
+
     def _follow(self, known: KnownLight, view: View) -> bool:
         """Moves the grid of what is `known` where it has to be moved for `view`; whether it holds that."""
         if known.grid.holds(view, _BESIDE):
             return True
-        moved = known.grid.moved_to(view, _BESIDE)
+        moved = known.grid.moved_to(view, _MOVED)
         if moved is None:
             return known.grid.holds(view)
         if moved[0].corner != known.grid.corner or moved[0].start != known.grid.start:
@@ -235,7 +244,7 @@ class TurningPass:
     def _begun(self, key: Scene, plan: Plan, view: View, shown: tuple[int, int] | None, wider: float, zoom: float) -> KnownLight | None:
         """With pixels so many times as wide as the view needs."""
         room = _ROOM_OUT * wider if zoom > 1.0 + _ZOOMS else _ROOM_IN if wider < 1.0 else _ROOM
-        grid = DirectionGrid.about(plan.scene.camera, view, _finer(plan) / wider, 0.5 * (room - 1.0), _BESIDE + CELL)
+        grid = DirectionGrid.about(plan.scene.camera, view, _finer(plan) / wider, 0.5 * (room - 1.0), _MOVED + CELL)
         return None if grid is None else KnownLight(self._ctx, self._programs, self._light_by, key, plan, grid, _finer_of_stars(plan.scene, view, shown, grid))
 
     def _is_ready(self, known: KnownLight, view: View) -> bool:
@@ -245,6 +254,10 @@ class TurningPass:
     def _lacks(self, known: KnownLight, view: View) -> int:
         """How many pixels `known` lacks of what `view` shows."""
         return CELL**2 * int(np.count_nonzero(known.grid.seen(view) & ~known.cells))
+
+    def _is_short(self, known: KnownLight, view: View, coming: View) -> bool:
+        """Whether `known` lacks any of what `view` shows, or of what is just beside that or `coming`."""
+        return bool(((known.grid.seen(view, _AHEAD) | known.grid.seen(coming)) & ~known.cells).any())
 
     def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View) -> None:
         """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle outwards: of a view
@@ -259,12 +272,13 @@ class TurningPass:
             if known.prepare(inputs):
                 self._extend(known, inputs, _marked(left[inner], seen.shape))
 
-    def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, spare: int) -> None:
-        """Traces what `view` shows and `known` lacks, and as much about it as the frame has rays for."""
-        most, fresh = _cells(view, known), np.zeros_like(known.cells)
-        for beside in (0, spare + _AHEAD, spare + _AHEAD if self._next is not None else spare + 2 * _AHEAD):
-            left = np.argwhere(known.grid.seen(view, beside) & ~known.cells & ~fresh)
-            if beside and len(left) > most - self._extended:
+    def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, coming: View) -> None:
+        """Traces what `view` shows and `known` lacks, and as much of what is beside it, and of what is `coming`, as the frame has rays for."""
+        grid, most, fresh = known.grid, _cells(view, known), np.zeros_like(known.cells)
+        shown = grid.seen(view)
+        for seen in (shown, grid.seen(view, _AHEAD), grid.seen(coming, 0 if self._next is not None else 2 * _AHEAD)):
+            left = np.argwhere(seen & ~known.cells & ~fresh)
+            if seen is not shown:
                 left = left[: max(most - self._extended, 0)]
             fresh |= _marked(left, fresh.shape)
             self._extended = int(np.count_nonzero(fresh))
@@ -275,21 +289,20 @@ class TurningPass:
         known.extend(inputs, fresh)
         self.marched += known.marched - before
 
-    def _make(self, known: KnownLight, inputs: FrameInputs, plan: Plan, view: View) -> _Made:
-        """The picture of what `view` shows; of a little more where it may serve for the next ones."""
+    def _make(self, known: KnownLight, inputs: FrameInputs, plan: Plan, view: View, coming: View) -> _Made:
+        """The picture of what `view` shows; of what is `coming`, too, where it may serve for that."""
         lasts = kept_light.stands(inputs.plan)
-        spare = _SPARE if lasts else 0
-        if (known.grid.seen(view, spare + _AHEAD) & ~known.cells).any():
-            self._extend_for(known, inputs, view, spare)
+        if self._is_short(known, view, coming):
+            self._extend_for(known, inputs, view, coming)
         before = known.marched
-        known.draw_disk(inputs, known.grid.seen(view, spare))
+        known.draw_disk(inputs, known.grid.seen(view))
         self.marched += known.marched - before
-        x, y, width, height = known.grid.box(view)
-        size = self._size_for(width + 2 * spare, height + 2 * spare)
-        box = x - spare, y - spare, *size
+        x, y, width, height = joined(known.grid.box(view), known.grid.box(coming)) if lasts else known.grid.box(view)
+        size = self._size_for(width, height)
+        box = x, y, *size
         corner = box[0] + inputs.start[0], box[1] + inputs.start[1]
         self._post.draw_part(inputs.in_picture(plan, size), known.light, corner, self._picture_of(size).frame)
-        return _Made(known, inputs, box, lasts)
+        return _Made(known, inputs, box, known.cells, lasts)
 
     def _size_for(self, width: int, height: int) -> tuple[int, int]:
         """Of the picture, with room for so many pixels: what depends on its size stays as long as it is not much too large."""
@@ -324,11 +337,12 @@ class TurningPass:
 
 @dataclass(frozen=True, eq=False)
 class _Made:
-    """The picture of a `box` of what is `known`, as `inputs` have it; `lasts`: at any time."""
+    """The picture of a `box` of what is `known`, as `inputs` have it, with those `cells`; `lasts`: at any time."""
 
     known: KnownLight
     inputs: FrameInputs
     box: Box
+    cells: Bool[np.ndarray, "rows columns"]
     lasts: bool
 
     def serves(self, known: KnownLight, inputs: FrameInputs, view: View) -> bool:
@@ -337,7 +351,7 @@ class _Made:
             return False
         (x, y, width, height), (left, low, *sides) = known.grid.box(view), self.box
         inside = x >= left and y >= low and x + width <= left + sides[0] and y + height <= low + sides[1]
-        return inside and not (known.grid.seen(view) & ~known.cells).any()
+        return inside and not (known.grid.seen(view) & ~self.cells).any()
 
 
 def _cells(view: View, known: KnownLight) -> int:

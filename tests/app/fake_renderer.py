@@ -53,7 +53,7 @@ class FakeRenderer:
     """Keeps what it was asked for and fills the target with a colour that depends on the camera's azimuth."""
 
     def __init__(self, gl):
-        self.calls, self.places, self.stars = [], [], []
+        self.calls, self.places, self.stars, self.turnable = [], [], [], []
         self.programs = FakePrograms()
         self.hit_map = FakeHitMap()
         self.exposure = FakeExposure()
@@ -67,6 +67,7 @@ class FakeRenderer:
         if self.fail is not None:
             raise self.fail
         self.calls.append((scene, time, size))
+        self.turnable.append(may_turn)
         self.glow_may_last = glow_may_last
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)

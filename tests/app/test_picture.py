@@ -360,6 +360,7 @@ def test_the_coarse_pictures_that_begin_another_scene_are_never_seen(ctx):
         seen.append(rendered)
     assert seen == [False, False, False, False, True], "missed, rehearsed three times, drawn"
     assert [size for *_, size in sizes[before:]] == [Shown.AREA.size, *[(16, 9)] * 3, Shown.AREA.size], "kept, and the rest"
+    assert shown.picture.renderer.turnable[-4:-1] == [False] * 3, "they would leave light by direction that is as coarse"
 
 
 def test_a_coarse_picture_is_shown_where_there_is_none_yet(ctx):

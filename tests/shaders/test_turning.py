@@ -7,8 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.frame_report import FrameReport
+from blackhole_gl.rendering.turning import Turns, can_turn
 from blackhole_gl.scene import Scene, presets
 
 SIZE = 640, 360
@@ -103,6 +105,21 @@ def test_a_view_that_comes_to_rest_has_rays_of_its_own(renderer: Renderer) -> No
     renderer.render(rests, 0.3, SIZE)
     apart = np.abs(settled - grey(renderer)).max(axis=-1) > 1.0
     assert apart.mean() < 0.02, "pixels at edges, which have more rays in a picture that does not move"
+
+
+@pytest.mark.parametrize(("preset", "can"), [("kerr", True), ("real_sky", True), ("orbiting_star", False), ("jet", False)])
+def test_things_and_media_are_drawn_as_under_any_moving_camera(preset: str, can: bool) -> None:
+    assert can_turn(plan(presets.load([preset]))) == can
+
+
+def test_it_is_told_which_pictures_only_turn() -> None:
+    """Those of a place in which the view has turned; not the first of a place, nor any with another setting."""
+    scene, turns = presets.load(["kerr"]), Turns()
+    assert not turns.would_turn(scene)
+    assert not turns.turned(scene) and not turns.would_turn(scene) and turns.would_turn(turned(scene, 1))
+    assert turns.turned(turned(scene, 1)) and turns.would_turn(turned(scene, 1)), "while the hand holds still"
+    assert not turns.would_turn(scene.with_values({"camera.distance": 19.0})) and not turns.would_turn(scene.with_values({"disk.temperature_k": 5000.0}))
+    assert [turns.turned(turned(scene, 1)) for _ in range(6)] == [True] * 3 + [False] * 3, "then it has rays of its own"
 
 
 def test_a_camera_that_moves_on_keeps_nothing(renderer: Renderer) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,18 @@ def test_a_grid_that_moves_keeps_its_pixels() -> None:
     here = grid.ahead(seen)
     assert np.allclose(here[held], moved.ahead(seen)[held], atol=1e-12) and not np.isclose(here[~held], moved.ahead(seen)[~held], atol=1e-6).any()
     assert 0.5 < held.mean() < 0.95
+
+
+def test_a_view_goes_on_as_it_came() -> None:
+    """Turned about whatever axis and zoomed: where so many further steps would bring it, to 1e-9; one that rests, or takes all of it in a step, stays."""
+    views = [View.of(Camera(yaw_deg=0.4 * n, pitch_deg=30.0, fov_deg=42.0 * 1.004**n), SIZE) for n in range(8)]
+    grown = np.tan(np.radians(21.0 * 1.004)) / np.tan(np.radians(21.0))
+    coming = views[1].going_on(views[0], 60)
+    steps = round(math.log(coming.half[0] / views[1].half[0]) / math.log(grown))
+    assert 10 <= steps <= 15 and coming.half[1] == pytest.approx(views[1].half[1] * grown**steps)
+    turn = views[1].look @ views[0].look.T
+    assert np.allclose(coming.look, np.linalg.matrix_power(turn, steps + 1) @ views[0].look, atol=1e-9)
+    assert views[1].going_on(views[1], 60).half == views[1].half and np.array_equal(views[7].going_on(views[0], 5).look, views[7].look)
 
 
 def test_a_view_that_is_too_wide_has_no_grid() -> None:
