@@ -137,7 +137,7 @@ class Renderer:
         radiance = self._kept_or_shaded(rest, media, motion)
         telling = telling or self.coarse_transfer.tells
         marched = not progressive or self._march_exactly(inputs, rest, passes=glow_may_last, stays=not traced or self.hit_map.sharpened)
-        telling = telling or not marched
+        telling = telling or glow_may_last and not marched
         self._stamp(stamps, measure)
         self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)

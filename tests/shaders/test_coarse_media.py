@@ -134,6 +134,19 @@ def test_samples_are_told_before_a_stopped_camera_shows_them(renderer: Renderer)
     np.testing.assert_array_equal(stretches_of(renderer), never_moved)
 
 
+def test_a_moving_cameras_frames_tell_what_they_cost(renderer: Renderer) -> None:
+    """A window learns nothing from frames that were for a picture to come: it drew all as coarse as it may."""
+    scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
+    for turn in (1.0, 2.0):
+        report = renderer.render(scene.with_values({"camera.inclination_deg": scene.camera.inclination_deg + turn}), turn, SIZE, progressive=True)
+        assert not report.sharpened and not report.sharp
+    for number in range(60):
+        report = renderer.render(scene, 3.0 + 0.01 * number, SIZE, progressive=True, glow_may_last=True)
+        assert report.traced or report.sharp or report.sharpened
+        if report.sharp:
+            break
+
+
 def test_no_program_of_samples_is_missing_once_a_picture_at_rest_was_drawn(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
     """A window prepares a scene anew where one is: those of samples were missed in every picture at rest, which therefore never became sharp."""
     scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
