@@ -15,10 +15,10 @@ uniform float refine_px;
 
 out float solid;
 
-// Kind and index of what is met, as reach_balls has them; −1 where the disk's plane is crossed before.
+// Kind and index of what is met from without, as reach_balls has them; −1 where the disk's plane is crossed before.
 int thing_of(float met) {
     int bits = int(met + 0.5);
-    return (bits >> 5 & 3) == 0 ? (bits & 31) + 32 * (bits >> 8) : -1;
+    return (bits >> 5 & 7) == 4 ? (bits & 31) + 32 * (bits >> 8) : -1;
 }
 
 // The same where one of the four meets something else, and the second differences of the other three are all that there is: of a root, which is how places go at an

@@ -40,6 +40,9 @@ _PIECE = 1.2
 # What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough.
 _NOT_LINEAR, _BY_ITSELF = 0.3, 1.0
 
+# What is held against where nothing has a size.
+_NOWHERE = np.array([(1e9, 0.0, 0.0, 0.0)])
+
 FINER = {"REACH_FINER": 1}
 """The switch of the program that tells of cells what is first told of squares."""
 
@@ -143,7 +146,7 @@ class Reach:
         made = self._targets(inputs.size)
         nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", inputs, ALONE)
         seen = balls[:, 3] > 0.0  # lamps may have no size
-        few = gathered(balls[seen], MOST_BALLS)
+        few = gathered(balls[seen], MOST_BALLS) if np.any(seen) else _NOWHERE
         each_its_own = np.count_nonzero(seen) == len(few)
         own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
         table = {"reach_balls": self._table(few, own, filled)}

@@ -101,7 +101,6 @@ class ThingsGrid:
         fill = self._programs.get("refine_fill.frag", inputs)
         fill.sample(
             {
-                "things0": made.rays.texture,
                 "things_met": self._met,
                 "things_way": made.rays.textures[-1],
                 "bend_x": made.bends.textures[0],
@@ -143,7 +142,7 @@ class ThingsGrid:
         return _Made(
             (size, count),
             rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)], depth),
-            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f2") for _ in range(2)], depth),
+            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(2)], depth),
             solid=Target.of(self._ctx, [self._texture(nodes, 1, "f1")], depth),
             depth=depth,
             marks=self._ctx.framebuffer([], depth),

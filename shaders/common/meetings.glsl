@@ -183,7 +183,7 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
     Found found = NOTHING_FOUND;
     uint left = stray < 1e29 ? known_balls : 0u;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
-    while (left != 0u) {
+    if (left != 0u) do {
         KnownBall ball;
         bool near;
         do {
@@ -201,7 +201,7 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
             if (part < found.at) found = Found(ball.kind, ball.index, part, size, enters AND_PLACE(mix(x, y, part)));
         }
         left = stray > allowed ? 0u : left;
-    }
+    } while (left != 0u);
     return found;
 }
 #else
@@ -210,7 +210,7 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
     Piece piece = piece_of(meeting_nodes, x, y, stray);
     int number = stray < 1e29 ? first : 0;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
-    while (number > 0) {
+    if (number > 0) do {
         Node leaf;
         number = next_leaf(meeting_nodes, piece, number, min(found.at, 1.0), true, leaf);
         if (number > 0) {
@@ -226,7 +226,7 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
             if (part < found.at) found = Found(kind, index, part, size, enters);
             number = stray > allowed ? 0 : next_node(leaf, number, true);
         }
-    }
+    } while (number > 0);
     return found;
 }
 #endif
@@ -252,10 +252,10 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
 #if BALLS_KNOWN
     bool comes = false;
     uint left = known_balls;
-    while (left != 0u) {
+    if (left != 0u) do {
         KnownBall ball = next_ball(left);
         comes = comes || comes_near(ball, x + stray.aside, y + stray.aside, stray.moved_off);
-    }
+    } while (left != 0u);
     return comes || stray.off > 1e29;
 #else
     Piece piece = piece_of(meeting_nodes, x + stray.aside, y + stray.aside, stray.moved_off);
@@ -263,7 +263,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     bool near = !is_clear && stray.off > 1e29;
     int number = is_clear || near ? 0 : 1;
     float room = 1e30;
-    while (number > 0) {
+    if (number > 0) do {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
         near = met && is_leaf(node) && meets_ball(piece, node);
@@ -274,7 +274,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
         if (remembers && (!met || is_leaf(node))) room = min(room, room_beside(node, piece));  // no more of the hierarchy is walked to find out
         if (near) first = number;
         number = near ? 0 : next_node(node, number, met);
-    }
+    } while (number > 0);
     if (remembers && !is_clear) clear = near ? NOWHERE : vec4(y + stray.aside, piece.cell * room);
     return near;
 #endif

@@ -13,7 +13,7 @@
 
 // A column each: centre in r_s, in the plan's frame, and radius, negative where a thing fills it; then 1 + kind + 32·index of what lies in it.
 uniform sampler2D reach_balls;
-uniform int reach_count;
+uniform int reach_count;       // one at least
 uniform float reach_not_linear; // of the margin, for what is not linear between four rays; 1 or more: each has the margin to itself
 uniform vec2 reach_radii;      // r_s from the hole: nothing is met nearer than the first, or farther than the second
 
@@ -91,7 +91,8 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     float rough = size * roughness(length(before) + length(after));
     vec2 sides2 = vec2(longest2(begin), longest2(end));
     Reached found = NONE_REACHED;
-    for (int i = 0; i < reach_count; ++i) {
+    int i = 0;
+    do {
         vec4 ball = textureLod(reach_balls, vec2((float(i) + 0.5) / float(textureSize(reach_balls, 0).x), 0.25), 0.0);
         float radius = abs(ball.w);
         vec3 arm = ball.xyz - a.x;
@@ -110,7 +111,7 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         found.between |= misses - nearer <= between ? 1u << i : 0u;
         found.hidden = far + rough + most < -ball.w ? uint(i + 1) : found.hidden;
         found.holds = far + rough + (radius > most ? reach_not_linear * most : most) < -ball.w ? uint(i + 1) : found.holds;
-    }
+    } while (++i < reach_count);
     return found;
 }
 

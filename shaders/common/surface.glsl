@@ -45,7 +45,8 @@ vec3 painted_colour(Finish finish, Painted painted) {
 // Light of the lamps that a surface with the unit `normal` sends towards the camera (Blinn 1977).
 vec3 lamp_light(Finish finish, vec3 colour, Sight sight, vec3 normal) {
     vec3 light = finish.ambient * colour;
-    for (int i = 0; i < lamp_count; ++i) {
+    int i = 0;
+    do {
         float row = (float(i) + 0.5) / float(lamp_count);
         vec4 lamp = textureLod(lamps_table, vec2(0.25, row), 0.0);  // the nearest: docs/llvmpipe.md, texels
         vec3 way = lamp.xyz - sight.place;
@@ -56,7 +57,7 @@ vec3 lamp_light(Finish finish, vec3 colour, Sight sight, vec3 normal) {
         float thinned = lamp.w > 0.0 ? lamp.w * lamp.w / max(far * far, 1e-6) : 1.0;
         vec3 sent = (1.0 - finish.ambient) * colour * facing + (facing > 0.0 ? finish.specular * highlight : 0.0);
         light += sent * thinned * textureLod(lamps_table, vec2(0.75, row), 0.0).rgb;
-    }
+    } while (++i < lamp_count);  // there is one at least
     return light;
 }
 

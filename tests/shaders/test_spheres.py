@@ -113,6 +113,9 @@ def test_rays_and_pixels_look_for_lamps_that_have_a_size_alone(renderer: Rendere
     assert all(draw.takes("thing_lamp_table") == (radius > 0.0) for draw in draws)
     alone = presets.load(["kerr"], lamp)
     assert met.seen_kinds(alone, "thing") == met.kinds(alone, "thing"), "a program has one kind at least"
+    if not radius:
+        renderer.hit_map.trace(FrameInputs.whole(plan(alone), 0.0, (160, 90)), progressive=True)
+        assert renderer.hit_map.own_rays().mean() < 0.5, "where nothing has a size nothing is near, not what happens to lie in the table of balls"
 
 
 def test_squares_too_small_for_a_pixel_are_their_mean(renderer: Renderer) -> None:
