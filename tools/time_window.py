@@ -5,7 +5,7 @@
 
 Opens the window without its panel, so that the picture has `--size`, and holds keys down for it; the window does the rest itself. Motions:
 rest (only the disk turns), turn (about the spin axis: rays are kept), orbit (in both angles, to and fro across the disk's plane), zoom (in to 6 r_s and
-out to 30), look (the view alone turns to the right), glance (the view turns for two seconds, rests for two, and turns back). Each goes on for `--settle`
+out to 30), look (the view alone turns to the right), glance (the view rests for two seconds, turns for two, rests, and turns back). Each goes on for `--settle`
 seconds before frames count, the first of them not before the scene's own programs are there. A figure stands for the machine and its screen together: on a
 display with vertical synchronisation no frame is shorter than the screen's.
 """
@@ -62,7 +62,7 @@ def look_of(motion: str, clock_s: float) -> float:
     """How far a stick is pushed to the right, by the window's clock."""
     if motion == "glance":
         turn, within = divmod(clock_s / GLANCE_S, 2.0)
-        return 0.0 if within >= 1.0 else LOOK if turn % 2.0 == 0.0 else -LOOK
+        return 0.0 if within < 1.0 else LOOK if turn % 2.0 == 0.0 else -LOOK
     return LOOK if motion == "look" else 0.0
 
 

@@ -36,9 +36,12 @@ class WarmUp:
         Only the first draw makes a driver finish its work, and llvmpipe does so anew for sizes that are powers of two: `size` should be the window's.
         """
         self.start()
-        drawn = self._worker.submit(_draw, scene, size)
-        self._worker.submit(_turn, scene, size)  # nothing waits for that
-        return drawn
+        return self._worker.submit(_draw, scene, size)
+
+    def look_ahead(self, scene: Scene, size: tuple[int, int]) -> Future[None]:
+        """Has those programs of `scene` compiled that only a view which turns needs: before it does, and nothing need wait for them."""
+        self.start()
+        return self._worker.submit(_turn, scene, size)
 
     def close(self) -> None:
         """Ends the process; what it is at is thrown away."""

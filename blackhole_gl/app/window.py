@@ -193,6 +193,7 @@ class Window:
         self._may_idle = may_idle
         self._shader_watch = ShaderWatch()
         self._was_moving = False
+        self._looked_ahead = 0  # programs that the window had compiled when the other process was last asked for more
         self._editing = Editing(scene)
 
     def open(self, scene: Scene, preset_names: Sequence[str] = (), *, any_file: bool = False) -> None:
@@ -361,8 +362,10 @@ class Window:
         failed = state.render_error is not None
         if not (failed or self.picture.is_current):
             return
-        if self._may_idle:
-            self.warm_up.start()
+        compiled = self.picture.renderer.programs.compiled
+        if self._may_idle and not (failed or camera_moving) and compiled != self._looked_ahead:
+            self._looked_ahead = compiled  # the programs of another scene, at the start those of the first
+            self.warm_up.look_ahead(state.scene, area.size)
         if state.show_overlay and not failed and not (rendered and self.picture.samples == 1 and self.picture.report.traced):
             self.picture.count_rays()
         if state.picture_wanted:

@@ -6,6 +6,7 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -23,7 +24,7 @@ from .inputs import FrameInputs
 from .last_picture import LastPicture
 from .metering import Exposure
 from .post import PostPass, keeps_stars
-from .programs import Programs, chosen
+from .programs import Programs, Unready, chosen
 from .shading import ShadePass
 from .star_layer import StarLayer
 from .stills import TILE, Stills
@@ -69,6 +70,7 @@ class Renderer:
         self.shadings = 0
         self._marched = 0  # rays, by the end of the last frame
         self._turning_shown = False  # whether the last picture is of the pass of that name
+        self._turning_waits = False  # whether a program of it was missing
         self._radiance: Target | None = None
         self._radiance_key: tuple | None = None  # where its light stands
         self._picture: Target | None = None
@@ -118,7 +120,8 @@ class Renderer:
         self._turning_shown = turned and may_turn and progressive and can_turn(planned)
         if self._turning_shown:
             into = target or self._own_picture(size).frame, viewport or (0, 0, *size)
-            self._turning_shown = self._turning.draw(scene, planned, time, size, *into, shown=shown, before=before or scene)
+            turn = partial(self._turning.draw, scene, planned, time, size, *into, shown=shown, before=before or scene)
+            self._turning_shown = self._turned(turn)
         if self._turning_shown:
             self.last.show(None)
             self._stamp(stamps, measure)
@@ -144,6 +147,21 @@ class Renderer:
         trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
         return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp, telling=telling)
 
+    def _turned(self, draw: Callable[[], bool]) -> bool:
+        """Whether `draw`, of the pass that turns views, has drawn. It may compile a program a frame whenever that is; while others are missing the picture is
+        to be drawn as under any moving camera."""
+        deadline = self.programs.deadline
+        self.programs.deadline = max(deadline, clock.perf_counter())
+        self._turning_waits = False
+        try:
+            return draw()
+        except Unready:
+            self._turning_waits = True
+            self._turning.forget()
+            return False
+        finally:
+            self.programs.deadline = deadline
+
     def turns(self, scene: Scene) -> bool:
         """Whether `scene` differs from the last picture, or those before it from the same place, by the camera's look alone, and such a picture may be one that
         is filtered from light kept by direction.
@@ -151,7 +169,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        return self._turns.would_turn(scene) and can_turn(make_plan(scene))
+        return self._turns.would_turn(scene) and not self._turning_waits and can_turn(make_plan(scene))
 
     def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
         """Whether all is there of the media that the next picture shows at rest; where the view `stays`, some more of their rays are marched."""

@@ -12,13 +12,14 @@ from ..planning import Plan
 from ..scene import Scene
 from ..shapes import Bool, Int
 from .boxes import Box, boxes_of
-from .classes import MATTER
+from .classes import MATTER, NO_THINGS
 from .direction_grid import CELL, DirectionGrid, View
 from .edges import EdgeRays, Motion
 from .hit_map import HitMap
 from .inputs import FrameInputs
+from .post import TONE_TABLE
 from .programs import Draw, Programs, Samplers
-from .shading import ShadePass
+from .shading import SKY_BEHIND, ShadePass
 from .squares import Squares
 from .star_layer import with_stars
 from .tables import Tables
@@ -87,6 +88,20 @@ class KnownLight:
         grid = self.grid
         offset = grid.corner[0] - grid.start[0], grid.corner[1] - grid.start[1]
         return FrameInputs(own, time, grid.size, grid.picture, offset, shown, grid.start)
+
+    def require(self, inputs: FrameInputs) -> None:
+        """Asks for the programs that it is drawn with, before it takes any memory.
+
+        Raises:
+            Unready: as `Programs.get`.
+        """
+        reads, scene = self._map.switches(), inputs.plan.scene
+        wanted = [("trace.frag", {}), ("shade_classes.frag", reads), ("turned.frag", {}), ("edge_resolve.frag", {})]
+        wanted += [("shade_sky.frag", reads)] if scene.sky.enabled else []
+        wanted += [("shade_matter.frag", {**reads, **SKY_BEHIND}), ("shade_matter.frag", {**reads, **NO_THINGS})] if inputs.plan.shows_disk else []
+        wanted += [("star_layer.frag", {**reads, **TONE_TABLE, **TURNED})] if self.finer < 1.0 else []
+        for path, switches in wanted:
+            self._programs.get(path, inputs, switches)
 
     def serves(self, key: Scene, plan: Plan, time: float) -> bool:
         """Whether it is of the place `key`, and by the programs that would be drawn with now."""

@@ -31,7 +31,7 @@ _A_FRAME = 40_000  # rays through media that are marched exactly between two pic
 
 NO_SWITCHES: Mapping[str, int] = {}
 
-_BEHIND = {"SKY_BEHIND": 1}
+SKY_BEHIND = {"SKY_BEHIND": 1}
 
 
 class ShadePass:
@@ -115,7 +115,7 @@ class ShadePass:
         frame.use()
         frame.depth_mask = False
         self._ctx.enable(moderngl.DEPTH_TEST)
-        matter = self._programs.get("shade_matter.frag", inputs, {**hit_map.switches(), **_BEHIND})
+        matter = self._programs.get("shade_matter.frag", inputs, {**hit_map.switches(), **SKY_BEHIND})
         matter.sample({**self._samplers(inputs, hit_map), "sky_behind": sky})
         hit_map.tell_blocks(matter)
         self._draw_classes(matter, MATTER, squares=squares)

@@ -151,12 +151,17 @@ class TurningPass:
 
         Returns:
             Whether that was done: a view that is too wide is not.
+
+        Raises:
+            Unready: a program is missing; nothing has been drawn.
         """
         view = View.of(plan.scene.camera, size)
         known = self._known_for(place_of(scene), plan, time, view, shown, before)
         if known is None:
             return False
         inputs = known.inputs(plan, time)
+        if not known.cells.any():
+            known.require(inputs)
         coming = view if self._shown is None else view.going_on(self._shown[1], _SPARE)
         made, self._extended = self._made, 0
         if made is None or not made.serves(known, inputs, view):

@@ -30,7 +30,7 @@ class FakePrograms:
     """Programs that an edit of a shader would change; a test puts mistakes in."""
 
     def __init__(self):
-        self.errors = []
+        self.errors, self.compiled = [], 0
 
     def reload(self):
         return self.errors

@@ -43,4 +43,5 @@ def test_it_draws_all_that_a_window_does(name: str) -> None:
     """Where it fails the window goes on without it, compiles by itself and stands still meanwhile."""
     warm_up = WarmUp()
     assert warm_up.submit(presets.load([name]), (72, 40)).exception(timeout=100.0) is None
+    assert warm_up.look_ahead(presets.load([name]), (72, 40)).exception(timeout=100.0) is None
     warm_up.close()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
+import moderngl
 import numpy as np
 import pytest
 
@@ -105,6 +107,22 @@ def test_a_view_that_comes_to_rest_has_rays_of_its_own(renderer: Renderer) -> No
     renderer.render(rests, 0.3, SIZE)
     apart = np.abs(settled - grey(renderer)).max(axis=-1) > 1.0
     assert apart.mean() < 0.02, "pixels at edges, which have more rays in a picture that does not move"
+
+
+def test_missing_programs_are_compiled_one_a_frame_while_the_picture_goes_on(ctx: moderngl.Context) -> None:
+    """Even where none may be compiled for other pictures, as in a window that has all of a scene: it never waits for them."""
+    renderer, scene = Renderer(ctx), presets.load(["kerr"])
+    for n in range(2):
+        renderer.render(turned(scene, 0), 0.1 * n, SIZE, progressive=True)
+    waits = []
+    for n in range(1, 20):
+        renderer.programs.deadline, before = -math.inf, renderer.programs.compiled
+        assert renderer.turns(turned(scene, n)) != bool(waits and waits[-1])
+        shown(renderer, turned(scene, n), 0.1 * n)
+        waits.append(renderer._turning_waits)
+        assert renderer.programs.compiled <= before + 1
+    assert waits[0] and not waits[-1] and renderer._turning_shown
+    renderer.release()
 
 
 @pytest.mark.parametrize(("preset", "can"), [("kerr", True), ("real_sky", True), ("orbiting_star", False), ("jet", False)])
