@@ -62,6 +62,23 @@ class Hierarchy:
         used[:, 3] = np.where(self.count > 0, -1 - 2 * leaves - (self.beyond < 0), after)
         return found.reshape(rows, ROW, 4)
 
+    def nearest_first(self, towards: Float[np.ndarray, " 3"]) -> Hierarchy:
+        """The same with those children first that lie farther on in the direction `towards`, from where rays come: they hide the others."""
+        ends = np.where(self.beyond < 0, len(self.beyond), self.beyond)
+        ahead = (self.low + self.high) @ towards
+        place, beyond = np.zeros(len(self.beyond), int), np.full(len(self.beyond), -1)
+        parents = np.arange(min(len(self.beyond), 1))
+        while (parents := parents[self.count[parents] == 0]).size:
+            first, second = parents + 1, ends[parents + 1]
+            swapped = ahead[second] > ahead[first]
+            first, second = np.where(swapped, second, first), np.where(swapped, first, second)
+            place[first] = place[parents] + 1
+            place[second] = place[first] + ends[first] - first
+            beyond[first], beyond[second] = place[second], beyond[parents]
+            parents = np.concatenate([first, second])
+        order = np.argsort(place)
+        return Hierarchy(self.low[order], self.high[order], beyond[order], self.first[order], self.count[order], self.order)
+
     def _lattice(self) -> tuple[Float[np.ndarray, " 3"], np.float32]:
         """Corner and width of a cell, float32: two cells of room on either side of all boxes, and no cell finer than the corner is rounded by."""
         if not len(self.low):

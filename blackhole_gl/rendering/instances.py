@@ -174,7 +174,7 @@ class InstanceTables:
             tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)}
             tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": nodes}
             if found:
-                tables |= {"mesh_nodes": found.nodes, "mesh_triangles": found.triangles}
+                tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
             self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
         return self._made[2]
 

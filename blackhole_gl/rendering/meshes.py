@@ -8,6 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..physics import motion
+from ..physics.observer import cos_sin_deg
+from ..planning import Plan
 from ..scene import FrozenMap, Scene, met
 from ..scene.files import MESHES
 from ..scene.instances import Instances
@@ -25,6 +28,7 @@ ROW = 64  # triangles in a row of the texture
 _FILES = MeshFiles()
 _MADE: dict[tuple[tuple[str, Stamp], ...], Meshes] = {}  # the last few: neither a slider nor going to and fro between scenes builds anything anew
 _MOST_MADE = 3
+_MOST_SEEN = 4  # of their hierarchies, each as seen from another side
 
 
 def is_mesh(item: Field) -> bool:
@@ -38,12 +42,25 @@ class Meshes:
 
     Attributes:
         roots: value of a mesh field → the first node of its mesh.
-        nodes: the texels of all hierarchies. triangles: float32 (rows, columns, 4), `TEXELS` each.
+        trees: value → its hierarchy, and what its leaves hold.
+        triangles: float32 (rows, columns, 4), `TEXELS` each.
     """
 
     roots: Mapping[str, int]
-    nodes: np.ndarray
+    trees: Mapping[str, _Tree]
     triangles: np.ndarray
+
+    def nodes(self, plan: Plan, time: float) -> np.ndarray:
+        """The texels of all hierarchies, those boxes first that are nearest to the camera at scene time `time`."""
+        return _nodes(self, tuple(_towards_camera(plan, time, value) for value in self.trees))
+
+
+@dataclass(frozen=True, eq=False)
+class _Tree:
+    """A mesh's hierarchy, and the number of its first triangle in the texture."""
+
+    boxes: Hierarchy
+    first: int
 
 
 def of(scene: Scene) -> Meshes | None:
@@ -65,16 +82,41 @@ def of(scene: Scene) -> Meshes | None:
 
 
 def _made(meshes: list[tuple[str, Mesh]]) -> Meshes:
-    roots, trees, leaves, triangles = {"": 0}, [], [], []
+    roots: dict[str, int] = {"": 0}
+    trees: dict[str, _Tree] = {}
+    triangles = []
     nodes = count = 0
     for value, mesh in meshes:
         tree = hierarchy.build(mesh.corners.min(axis=1).astype(float), mesh.corners.max(axis=1).astype(float), IN_LEAF)
         roots[value] = hierarchy.FIRST + nodes
-        trees.append(tree)
-        leaves.append(4 * (tree.first + count) + tree.count - 1)
+        trees[value] = _Tree(tree, count)
         triangles.append(_texels(mesh)[tree.order])
         nodes, count = nodes + len(tree.beyond), count + len(mesh.corners)
-    return Meshes(roots, _joined(trees).texels(np.concatenate([np.zeros(0, int), *leaves])), _rows(triangles))
+    return Meshes(roots, trees, _rows(triangles))
+
+
+@lru_cache(maxsize=_MOST_SEEN)
+def _nodes(meshes: Meshes, towards: tuple[tuple[int, int, int], ...]) -> np.ndarray:
+    trees = [(tree.boxes.nearest_first(np.array(direction)), tree.first) for tree, direction in zip(meshes.trees.values(), towards)]
+    leaves = [4 * (tree.first + first) + tree.count - 1 for tree, first in trees]
+    return _joined([tree for tree, _ in trees]).texels(np.concatenate([np.zeros(0, int), *leaves]))
+
+
+def _towards_camera(plan: Plan, time: float, value: str) -> tuple[int, int, int]:
+    """The direction from the first thing with that mesh to the camera, in the axes of the mesh: the nearest of a cube's middles, edges and corners.
+
+    Which box hides which changes little within it.
+    """
+    camera, things = plan.scene.camera, plan.scene.things
+    name = (_named(plan.scene) or {})[value].split(".")[1]
+    bound, _, _, attitude = motion.rows(plan.scene, "thing", plan.space_time, time)[list(things).index(name)]
+    (c, s), (cos_azimuth, sin_azimuth) = cos_sin_deg(camera.inclination_deg), cos_sin_deg(plan.azimuth_deg)
+    towards = min(camera.distance, 1e9) * np.array([s * cos_azimuth, s * sin_azimuth, c]) - bound[:3]
+    own = towards + 2.0 * np.cross(attitude[:3], np.cross(attitude[:3], towards) - attitude[3] * towards)
+    if things[name].values.get("up") == "y":
+        own = np.array([own[0], own[2], -own[1]])
+    x, y, z = np.round(own / max(np.max(np.abs(own)), 1e-12)).astype(int).tolist()
+    return x, y, z
 
 
 def _named(scene: Scene) -> FrozenMap[str, str] | None:

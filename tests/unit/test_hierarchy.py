@@ -54,6 +54,22 @@ def test_a_walk_finds_every_box_that_holds_a_point(count: int, seed: int, in_lea
 
 
 @settings(max_examples=30, deadline=None)
+@given(st.integers(0, 70), st.integers(0, 1000), st.integers(1, hierarchy.MOST_IN_LEAF))
+def test_of_two_boxes_the_one_farther_on_comes_first_and_a_walk_finds_the_same(count: int, seed: int, in_leaf: int) -> None:
+    low, high = _boxes(count, seed)
+    towards = np.random.default_rng(seed).integers(-1, 2, 3)
+    made = hierarchy.build(low, high, in_leaf)
+    turned = made.nearest_first(towards)
+    texels, turned_texels = made.texels(made.first), turned.texels(turned.first)
+    for point in np.vstack([low, 0.5 * (low + high), np.zeros((1, 3))]):
+        assert sorted(_walked(texels, point)[0]) == sorted(_walked(turned_texels, point)[0])
+    ahead = (turned.low + turned.high) @ towards
+    first = np.flatnonzero(turned.count == 0) + 1
+    second = turned.beyond[first]
+    assert np.all(second > first) and np.all(ahead[first] >= ahead[second])
+
+
+@settings(max_examples=30, deadline=None)
 @given(st.integers(1, 30), st.integers(1, 30), st.integers(0, 1000))
 def test_a_walk_through_two_joined_finds_what_either_holds(first: int, second: int, seed: int) -> None:
     low, high = _boxes(first + second, seed)
