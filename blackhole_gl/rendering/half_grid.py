@@ -88,17 +88,20 @@ class HalfGrid:
         self.cells = np.empty((0, 0), np.float32)
         self._rays = 0  # of the last picture
 
-    def choose(self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"]) -> bool:
+    def choose(
+        self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"], *, first: bool = False
+    ) -> bool:
         """Marks the rays for those of the coarse grid's cells that lie together; whether there are any, and these rays spare more than they are.
 
         Args:
             count: targets of the trace pass.
             own, things: which cells have rays of their own that meet no things, and that may.
+            first: take any there are, so that programs are compiled with a scene's first picture and not amid a movement.
         """
         left = own | things
-        together = left & (_about(left) >= _TOGETHER)
+        together = left if first else left & (_about(left) >= _TOGETHER)
         with_rays, asked = np.count_nonzero(_about(together)), np.count_nonzero(together)
-        if not asked or with_rays > _MOST_RAYS * asked:
+        if not asked or not first and with_rays > _MOST_RAYS * asked:
             return False
         made = self._targets(inputs.size, count)
         chosen = np.where(together & things, _NOT_CLEAR, np.where(together, _CLEAR, 0)).astype(np.uint8)

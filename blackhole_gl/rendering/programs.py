@@ -29,9 +29,9 @@ from .boxes import Box
 from .inputs import FrameInputs, UniformBuffers
 from .squares import SquareBuffer, Squares
 
-MOST_KEPT = 64
-"""Compiled programs kept, those used last. A frame uses about ten, so the last few scenes come back at once; what else comes back takes milliseconds, as
-drivers keep what they compiled on disk."""
+MOST_KEPT = 96
+"""Compiled programs kept, those used last. A frame uses ten, with things in motion twice as many, so the last few scenes come back at once; what else comes
+back takes milliseconds, as drivers keep what they compiled on disk."""
 
 Samplers = Mapping[str, moderngl.Texture | moderngl.TextureArray]
 """Sampler's name → texture."""
