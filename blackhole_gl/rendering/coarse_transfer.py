@@ -146,14 +146,17 @@ class CoarseTransfer:
         return coming.rows == made.grid.size[1] and made.is_told
 
     def _take_coming(self, asked: _Asked) -> None:
-        """Goes on with what was prepared, if that is what is `asked` for."""
+        """Goes on with what was prepared, if that is what is `asked` for, and leaves it where another picture at rest is."""
         coming = self._coming
-        if coming is None or coming.rays != asked.rays or not coming.made.is_told:
+        if coming is None or not asked.media.rests:
+            return
+        self._coming = None
+        if coming.rays != asked.rays or not coming.made.is_told:
+            coming.made.release()
             return
         if self._made is not None:
             self._made.release()
-        self._made, self._coming, self._marked = coming.made, None, asked.rays
-        self._last = _Last(asked.rays, -np.inf, -np.inf)
+        self._made, self._marked, self._last = coming.made, asked.rays, _Last(asked.rays, -np.inf, -np.inf)
 
     def _asked(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> _Asked:
         march = self._programs.get("transfer.frag", media.inputs, {**hit_map.switches(), "GRID": 1, "FROM_CAMERA": 1})
