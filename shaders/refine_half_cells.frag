@@ -56,10 +56,21 @@ bool row_of(ivec2 first, ivec2 step, int what, out vec3 slope, out vec3 error) {
     return alike;
 }
 
+// How far from its surface a place on a thing may be, r_s: of those that tell_apart, which are looked for again near the place when they are shaded, no farther than
+// half a pixel is wide.
+float room_beside(int what, vec3 place) {
+    float room = 1e30;
+#if MEETINGS
+    float pixel = 0.5 * refine_tolerance.y / refine_px * distance(place, camera_n.xyz * (0.5 / camera_w));
+#each thing_told_apart : if (what > 0 && (what & 31) == THING_$KEY + 1) room = pixel;
+#endif
+    return room;
+}
+
 void main() {
     ivec2 pixels = ivec2(gl_FragCoord.xy), cell = pixels / 2, corner = pixels + HALF_MARGIN;
-    vec3 ignored, slope[4], error[4];
-    int what = end_of(corner, ignored);
+    vec3 start, slope[4], error[4];
+    int what = end_of(corner, start);
     bool alike = what != 0;
     for (int k = 0; k < 2; ++k) {
         alike = row_of(corner + ivec2(-1, k), ivec2(1, 0), what, slope[k], error[k]) && alike;
@@ -71,7 +82,7 @@ void main() {
         moved = max(moved, displacement(right, up, error[k], error[2 + k]));
         turned = max(turned, length(error[k]) + length(error[2 + k]));
     }
-    bool near = moved < refine_px || what < 0 && turned < refine_tolerance.x;
+    bool near = moved < refine_px && turned < room_beside(what, start) || what < 0 && turned < refine_tolerance.x;
     float may = texelFetch(chosen, cell, 0).r, held = texelFetch(cell_classes, cell, 0).r;
 #if MEETINGS
     bool whole = may < 1.0 || (texelFetch(cell_balls, cell, 0).r & narrow_balls) == 0u;

@@ -123,12 +123,21 @@ Light thing_mesh_light(int i, Sight sight) {
     vec3 arm = sight.place - bound.xyz;
     vec3 at = to_mesh(i, arm) / bound.w, towards = to_mesh(i, sight.towards);
     MeshSpot spot = meet_mesh(thing_mesh_file(i), at + BESIDE * towards, at - BESIDE * towards);
+    // Places that are interpolated in motion may lie a little beside an outline: then it is what lies across the ray, seen from the side that faces it.
+    bool is_beside = spot.triangle < 0;
+    vec3 right = normalize(abs(towards.z) < 0.9 ? vec3(towards.y, -towards.x, 0.0) : vec3(0.0, towards.z, -towards.y)), up = cross(towards, right);
+    for (int k = 0; k < 2; ++k) {
+        vec3 aside = 2.0 * BESIDE * (k == 0 ? right : up);
+        MeshSpot found = meet_mesh(spot.triangle < 0 ? thing_mesh_file(i) : 0, at + aside, at - aside);
+        if (spot.triangle < 0) spot = found;
+    }
     int triangle = max(spot.triangle, 0);
     vec4 texels[6];
     for (int k = 0; k < 6; ++k) texels[k] = mesh_texel(triangle, k);
     mat3 colours = mat3(mesh_texel(triangle, 6).xyz, mesh_texel(triangle, 7).xyz, mesh_texel(triangle, 8).xyz);
     vec3 normal = mat3(texels[3].xyz, texels[4].xyz, texels[5].xyz) * spot.shares;
-    normal = spot.triangle < 0 ? towards : normalize(spot.enters ? normal : -normal);
+    bool outside = is_beside ? dot(normal, towards) >= 0.0 : spot.enters;
+    normal = spot.triangle < 0 ? towards : normalize(outside ? normal : -normal);
     vec2 first = vec2(texels[0].w, texels[1].w), second = vec2(texels[2].w, texels[3].w), third = vec2(texels[4].w, texels[5].w);
     vec3 a = texels[1].xyz - texels[0].xyz, b = texels[2].xyz - texels[0].xyz;
     Painted painted = Painted(
