@@ -55,6 +55,7 @@ _LEAP, _COARSEST = 0.2, 0.3  # the same, where a coarse grid is begun instead; a
 _WORTH, _WORTH_OUT = (0.7, 1.6), (0.45, 1.0)  # how fine the pixels of a grid that is being made may be, of what the view needs; while that zooms out
 _AHEAD = CELL  # pixels beside a view of which none is left out when more of it is traced
 _BESIDE, _MOVED = 4 * CELL, 7 * CELL  # pixels that a grid has on each side of a view, but about the poles; and when it has been moved
+_FIRST_OF = 3  # of its width, that a view goes on by, lies the middle of what a grid that is being made gets first
 _SPARE = 48  # pixels beside a view that are traced before it comes to them, and drawn where nothing but the view moves
 _FEW = 4  # stars in a pixel: of a sky that may show more all but the brightest would become a haze
 _SINGLE = 0.95  # as for pictures that are shown a little larger: stars that can be seen singly are left to the picture shown
@@ -170,7 +171,8 @@ class TurningPass:
             self._extend_for(known, inputs, view, coming)
         self._turn(known, inputs, view, made.box, target, viewport)
         if self._next is not None:
-            self._extend_next(self._next, plan, time, view)
+            middle = view if self._shown is None else view.going_on(self._shown[1], view.size[0] // _FIRST_OF)
+            self._extend_next(self._next, plan, time, view, middle)
         self._shown = inputs, view
         if shown is None:
             self.draw_stars(target, viewport)
@@ -264,15 +266,15 @@ class TurningPass:
         """Whether `known` lacks any of what `view` shows, or of what is just beside that or `coming`."""
         return bool(((known.grid.seen(view, _AHEAD) | known.grid.seen(coming)) & ~known.cells).any())
 
-    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View) -> None:
-        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle outwards: of a view
-        that narrows the rest may not be needed."""
+    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View) -> None:
+        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle of what is `coming`
+        outwards: the rest is soon seen no more."""
         seen = known.grid.seen(view, _AHEAD)
         left = np.argwhere(seen & ~known.cells)
         cells = _cells(view, known) - self._extended
         if len(left) and cells > 0:
             shown = known.grid.seen(view)[tuple(left.T)]
-            inner = np.lexsort((-known.grid.ahead(view)[tuple(left.T)], ~shown))[:cells]
+            inner = np.lexsort((-known.grid.ahead(coming)[tuple(left.T)], ~shown))[:cells]
             inputs = known.inputs(plan, time)
             if known.prepare(inputs):
                 self._extend(known, inputs, _marked(left[inner], seen.shape))

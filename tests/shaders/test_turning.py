@@ -53,11 +53,10 @@ def test_after_the_first_few_rays_are_marched(renderer: Renderer, preset: str, m
     assert max(marched[2:]) <= 0.05
 
 
-@pytest.mark.parametrize("rate", [1.005, 1.01])
-def test_zooming_out_needs_few_rays_too(renderer: Renderer, rate: float) -> None:
-    """Half a per cent or one a frame, to two and a half times the view and more: 5 % of the pixels in each frame."""
+def test_zooming_out_needs_few_rays_too(renderer: Renderer) -> None:
+    """One per cent a frame, to two and a half times the view and more: 5 % of the pixels in each frame."""
     scene = presets.load(["kerr"], {"camera.fov_deg": "22"})
-    out = lambda scene, n: scene.with_values({"camera.fov_deg": 22.0 * rate**n})  # noqa: E731
+    out = lambda scene, n: scene.with_values({"camera.fov_deg": 22.0 * 1.01**n})  # noqa: E731
     assert max(report.marched for report in list(frames(renderer, scene, out, 100))[2:]) <= 0.05 * PIXELS
 
 
