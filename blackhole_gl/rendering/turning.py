@@ -391,10 +391,10 @@ def _wanted(grid: DirectionGrid, view: View, finer: float, zoom: float) -> float
 
 def _finer_of_stars(scene: Scene, view: View, shown: tuple[int, int] | None, grid: DirectionGrid) -> float:
     """Side of a pixel shown over the grid's, for its stars: 1 where they are drawn with the rest."""
-    stars, finer = stars_a_pixel(scene), view.pixel / grid.pixel * (view.size[1] / shown[1] if shown is not None else 1.0)
-    if stars and finer <= _SINGLE:
-        return finer
-    return _SINGLE if 0 < stars <= _FEW else 1.0
+    stars, enlarged = stars_a_pixel(scene), view.size[1] / shown[1] if shown is not None else 1.0
+    if stars > _FEW:
+        return enlarged
+    return min(enlarged * view.pixel / grid.pixel, _SINGLE) if stars else 1.0
 
 
 def _marked(cells: Int[np.ndarray, "cells 2"], shape: tuple[int, ...]) -> Bool[np.ndarray, "rows columns"]:
