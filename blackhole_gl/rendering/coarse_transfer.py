@@ -145,6 +145,17 @@ class CoarseTransfer:
             self._tell(self._telling(asked), asked, made)
         return coming.rows == made.grid.size[1] and made.is_told
 
+    def ask_for(self, media: MediaApart, hit_map: HitMap) -> None:
+        """Has every program compiled that pictures of `media`, which are not drawn yet, will take."""
+        asked = self._asked(media, hit_map, {})
+        self._programs.get("transfer_cells.frag", media.inputs)
+        self._programs.get("transfer_marks.frag", media.inputs, hit_map.switches())
+        self._programs.get("transfer_join.frag", media.inputs)
+        self._programs.get("transfer_join.frag", media.inputs, {"LISTED": 1})
+        if media.rests and can_keep(media.inputs.plan):
+            self._telling(asked)
+            self._summing(asked)
+
     def _take_coming(self, asked: _Asked) -> None:
         """Goes on with what was prepared, if that is what is `asked` for, and leaves it where another picture at rest is."""
         coming = self._coming

@@ -135,6 +135,8 @@ class Renderer:
         self._views.fit(scene, self.hit_map, moving=progressive)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
+        if not progressive and self.programs.deadline < math.inf:
+            self._ask_for_coarse_media(inputs)
         motion = Motion.CAMERA if progressive else Motion.MATTER if thing_moved or media is not None and media.passes else Motion.NOTHING
         telling = self.coarse_transfer.tells
         radiance = self._kept_or_shaded(rest, media, motion)
@@ -170,6 +172,13 @@ class Renderer:
             As `render`.
         """
         return self._turns.would_turn(scene) and not self._turning_waits and can_turn(make_plan(scene))
+
+    def _ask_for_coarse_media(self, inputs: FrameInputs) -> None:
+        """Has the programs compiled that media take while a camera that has stopped sees them as in motion, and while time runs: a window rehearses neither."""
+        for moving in (True, False):
+            media = coarse_transfer.of(inputs, moving=moving, passes=True)
+            if media is not None and not media.exact:
+                self.coarse_transfer.ask_for(media, self.hit_map)
 
     def _march_exactly(self, inputs: FrameInputs, rest: FrameInputs, *, passes: bool, stays: bool) -> bool:
         """Whether all is there of the media that the next picture shows at rest; where the view `stays`, some more of their rays are marched."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
@@ -156,6 +158,21 @@ def test_no_program_of_samples_is_missing_once_a_picture_at_rest_was_drawn(rende
     for turn in range(8):
         renderer.render(scene, 2.0 + turn, SIZE, glow_may_last=True)
     assert not renderer.coarse_transfer.tells and renderer.coarse_transfer._made is not None and renderer.coarse_transfer._made.samples.is_whole
+
+
+@pytest.mark.parametrize("runs", [False, True])
+def test_no_program_is_missing_after_a_stop_once_a_window_has_rehearsed(renderer: Renderer, monkeypatch: pytest.MonkeyPatch, runs: bool) -> None:
+    """It rehearses a picture at rest in which time stands, and one in motion; media as in motion before hits at rest had a program that neither has."""
+    scene = presets.load(["kerr"], SLAB | WITHOUT_DISK)
+    renderer.programs.release()
+    monkeypatch.setattr(renderer.programs, "deadline", time.perf_counter() + 1e3)
+    renderer.render(scene, 1.0, SIZE)
+    renderer.render(scene.with_values({"camera.inclination_deg": scene.camera.inclination_deg + 1.0}), 1.0, SIZE, progressive=True)
+    monkeypatch.setattr(renderer.programs, "deadline", -np.inf)
+    for number in range(60):
+        if renderer.render(scene, 1.0 + 0.01 * number * runs, SIZE, progressive=True, glow_may_last=runs).sharp:
+            break
+    renderer.render(scene, 2.0, SIZE, glow_may_last=runs)
 
 
 def test_where_samples_would_be_too_many_rays_are_marched_on(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
