@@ -150,3 +150,15 @@ def test_media_in_a_field_shine_as_by_straight_rays_where_it_has_no_strength(ren
     assert np.abs(found[0] - found[1]).max() < 1e-3, "half floats have 5e-4 of what is nearly 1"
     with pytest.raises(SceneError, match=r"rays.field_radius: got 6 r_s, and media reach 7 r_s from the middle"):
         plan(scene.with_values({"rays.field_radius": 6.0}))
+
+
+def test_a_ray_that_grazes_a_field_in_one_step_leaves_it_bent(renderer: Renderer) -> None:
+    """The step begins on the sphere, and the root beside that is no end: such rays kept their direction, 12 pixels of a moving picture off."""
+    scene = scene_of("potential", 14.0, rays__integrator="nystrom5", rays__step_control="radius")
+    rim = math.asin(scene.rays.field_radius / scene.camera.distance)
+    rays = np.column_stack([np.repeat(rim * np.array([0.96, 0.98, 0.995]), 5), np.tile(np.linspace(0.3, 6.0, 5), 3)])
+    fine, long = (listed_rays.trace_by_shader(renderer, scene.with_values({"rays.step_length": step}), rays) for step in (0.1, 1.8))
+    straight = listed_rays.trace_by_shader(renderer, scene.with_values({"rays.lensing": False}), rays)
+    assert (long.steps == 1).all() and (fine.steps > 1).all()
+    off, bent = (np.linalg.norm(fine.direction - other.direction, axis=1) for other in (long, straight))
+    assert np.all(off < 0.01 * bent)
