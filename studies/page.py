@@ -58,13 +58,14 @@ Made by `{command}`; do not edit. Measured on: {where.text}. The numbers behind 
 {len(methods)} methods (a ray model, an integrator, a step control), {len(moving)} of them also refined, {len(found.rows)} rows, {len(found.scenes)}
 scenes: the chart's own and, in a full run, every shipped preset that shows a hole as it is. In each, {found.scenes[0].count:,} rays
 through the centres of random pixels (fixed seed) go through the pictures' own shader in 32-bit numbers, and through the float64 twin of the
-*true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere, whatever the method believes in.
+*true* space-time: `schwarzschild` where a* = 0, `kerr` elsewhere and inside the horizon, whatever the method believes in.
 A wrong force law therefore shows as a floor that no finer step lowers. Rays closer than ε = 1e-3 to the critical curve (the shadow's edge) are
 counted apart: there every method's error grows without bound. Cost is the shortest of the interleaved frame times over that of the same scene in flat space;
-evaluations of the right-hand side are counted too, and no noise moves those. A pixel is 1/1080 of the angle of view.
+evaluations of the right-hand side are counted too, and no noise moves those. A pixel is 1/1080 of the angle of view. For cameras inside the horizon the flat
+frame is that from just outside.
 
-| scene | a* | distance [r_s] | inclination | angle of view |
-| --- | --- | --- | --- | --- |
+| scene | a* | distance [r_s] | inclination | angle of view | observer |
+| --- | --- | --- | --- | --- | --- |
 {scenes}
 """
 
@@ -72,7 +73,7 @@ evaluations of the right-hand side are counted too, and no noise moves those. A 
 def _scene_line(item: ChartScene) -> str:
     hole, camera = item.scene.hole, item.scene.camera
     view = f"{camera.field_m:g} M high" if math.isinf(camera.distance) else f"{camera.fov_deg:g}°"
-    return f"| {item.name} | {hole.spin:g} | {camera.distance:g} | {camera.inclination_deg:g}° | {view} |"
+    return f"| {item.name} | {hole.spin:g} | {camera.distance:g} | {camera.inclination_deg:g}° | {view} | {camera.observer} |"
 
 
 def _methods(found: Findings) -> str:

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass
 
 from .. import planning
+from ..physics.observer import is_possible
 from ..rendering.frame import Renderer
 from ..scene import Scene
 from . import timing
@@ -74,9 +75,9 @@ class Bench:
 
 
 def scenes(scene: Scene) -> dict[str, Scene]:
-    """What is compared: `scene` by its own plan, straight rays, other ray models, and `scene` with one part left out."""
+    """What is compared: `scene` by its own plan, straight rays, other ray models where there is such a camera, and `scene` with one part left out."""
     without_spin = scene.with_values({"hole.spin": 0.0})
-    return {
+    compared = {
         YARDSTICK: timing.flat_scene(scene),
         "as given": scene,
         "as given, not refined": scene.with_values({"rays.refine": False}),
@@ -88,6 +89,7 @@ def scenes(scene: Scene) -> dict[str, Scene]:
         "table, no sky": without_spin.with_values({"rays.model": "schwarzschild_table", "sky.enabled": False}),
         "table, no bloom": without_spin.with_values({"rays.model": "schwarzschild_table", "post.bloom": False}),
     }
+    return {name: item for name, item in compared.items() if is_possible(item)}
 
 
 def measure(

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..physics import observer
 from ..physics.space_time import is_field
 from ..planning.choice import REFINED_TOLERANCE
 from ..scene import Scene, catalogue
@@ -108,7 +109,7 @@ def sensible(scene: Scene, whole: bool = True) -> list[Combination]:
         return _methods_of_field(scene.rays.model, whole)
     found: dict[Combination, None] = {}
     for model in catalogue.plug_ins("ray_model").values():
-        if not model.traits.field:
+        if not model.traits.field and _has_camera(model, scene):
             found |= dict.fromkeys(_methods_of(model, scene, whole))
     return list(found)
 
@@ -116,16 +117,21 @@ def sensible(scene: Scene, whole: bool = True) -> list[Combination]:
 def worth_refining(scene: Scene, quick: bool = False) -> list[Combination]:
     """The methods worth measuring with refinement for `scene`.
 
-    Those that the plan may come to: the model made for this kind of hole, marched in Mino time by its separated equations (any other march
-    costs several times as much), with the best integrators; and exact closed models. Where there is one the plan takes a march only when it
-    is told to: one integrator will do.
+    Those that the plan may come to: the model made for this kind of hole, or any that leads through its horizon to a camera inside, marched in Mino time by its
+    separated equations (any other march costs several times as much), with the best integrators; and exact closed models. Where there is one the plan takes a
+    march only when it is told to: one integrator will do.
     """
-    spins = scene.hole.spin != 0.0
-    models = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and _is_separated(model) and model.traits.spins == spins]
-    integrators = _BEST if spins and not quick else ("rk4",)
+    exact = [model for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and _has_camera(model, scene)]
+    separated = [model for model in exact if _is_separated(model)]
+    models = [model for model in separated if model.traits.spins == (scene.hole.spin != 0.0)] or separated
+    closed = [Combination(model.key) for model in exact if model.traits.kind == "closed"]
+    integrators = ("rk4",) if closed or quick else _BEST
     marched = [method for model in models for method in _fitting(model.key, integrators, _own_control(model))]
-    closed = [Combination(model.key) for model in catalogue.plug_ins("ray_model").values() if exact_for(model, scene) and model.traits.kind == "closed"]
     return [replace(method, refined=True) for method in marched + closed]
+
+
+def _has_camera(model: PlugIn, scene: Scene) -> bool:
+    return observer.is_possible(scene.with_values({"rays.model": model.key, "rays.lensing": True}))
 
 
 def _is_separated(model: PlugIn) -> bool:

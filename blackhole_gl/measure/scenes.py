@@ -10,8 +10,8 @@ import numpy as np
 
 from .. import listed_rays
 from ..listed_rays import TracedRays
-from ..physics import observer, relativity
-from ..physics.space_time import is_field, ray_model
+from ..physics import lensed_circles, observer, relativity
+from ..physics.space_time import is_field, is_inside, ray_model
 from ..planning.choice import REFINED_SIZE
 from ..scene import Scene, met, presets
 
@@ -26,14 +26,18 @@ SEED = 20
 
 _FAR = 1e7  # r_s: what stands for infinity where only a finite place has a shadow's angle
 
-# name: (a*, distance in r_s, inclination, angle of view); near and far cameras for each kind of hole.
+# name: (a*, distance in r_s, inclination, angle of view, observer); near and far cameras for each kind of hole, and falling ones inside.
 _OWN = {
-    "a0_far": (0.0, 50.0, 30.0, 25.0),
-    "a0_near": (0.0, 4.0, 80.0, 90.0),
-    "a0_distant": (0.0, 1000.0, 80.0, 45.0),
-    "a06_far": (0.6, 200.0, 60.0, 6.0),
-    "a095_near": (0.95, 5.0, 75.0, 90.0),
-    "a0998_near": (0.998, 3.0, 60.0, 100.0),
+    "a0_far": (0.0, 50.0, 30.0, 25.0, "static"),
+    "a0_near": (0.0, 4.0, 80.0, 90.0, "static"),
+    "a0_distant": (0.0, 1000.0, 80.0, 45.0, "static"),
+    "a06_far": (0.6, 200.0, 60.0, 6.0, "static"),
+    "a095_near": (0.95, 5.0, 75.0, 90.0, "static"),
+    "a0998_near": (0.998, 3.0, 60.0, 100.0, "static"),
+    "a0_inside": (0.0, 0.12, 80.0, 130.0, "rain"),
+    "a09_inside": (0.9, 0.6, 80.0, 130.0, "rain"),
+    "a09_deep": (0.9, 0.3, 80.0, 130.0, "rain"),
+    "a0998_inside": (0.998, 0.52, 60.0, 130.0, "rain"),
 }
 SHOWN = ("a0_near", "a06_far", "a095_near", "a0998_near")
 """The scenes of the pictures and of a quick run."""
@@ -58,6 +62,15 @@ class ChartScene:
         """Angle in radians of one pixel of a picture 1080 pixels high, at its middle."""
         return math.radians(self.scene.camera.fov_deg) / FULL_HD
 
+    @property
+    def _moves(self) -> bool:
+        """Whether the hole's centre may be seen elsewhere than straight inwards."""
+        return observer.is_moving(self.scene.camera)
+
+    @cached_property
+    def _observer(self) -> observer.Observer:
+        return observer.observe(true_scene(self.scene))
+
     @cached_property
     def pixels(self) -> np.ndarray:
         """(count, 2) integers: x and y, from the bottom left, of the pixels of a picture of `REFINED_SIZE` whose rays come first in `rays`."""
@@ -76,6 +89,8 @@ class ChartScene:
         chi_near = rng.uniform(-np.pi, np.pi, self.count // 10)
         epsilon = 10.0 ** rng.uniform(-6.0, math.log10(NEAR_CRITICAL), len(chi_near)) * rng.choice([-1.0, 1.0], len(chi_near))
         near = critical_radius(self.scene, chi_near) * (1.0 + epsilon)
+        if self._moves:
+            near, chi_near = observer.screen_angles(lensed_circles.directions(self._observer, near, chi_near))
         radius, chi = np.append(radius, near), np.append(chi, chi_near)
         return np.stack([radius * np.cos(chi), radius * np.sin(chi)] if at_infinity else [radius, chi], axis=-1)
 
@@ -98,6 +113,8 @@ class ChartScene:
             radius, chi = np.hypot(*self.rays.T), np.arctan2(self.rays[:, 1], self.rays[:, 0])
         else:
             radius, chi = self.rays.T
+            if self._moves:
+                radius, chi = lensed_circles.from_hole(self._observer, observer.local_directions(radius, chi))
         return np.abs(radius / critical_radius(self.scene, chi) - 1.0)
 
     @cached_property
@@ -114,12 +131,18 @@ def true_scene(scene: Scene) -> Scene:
     """`scene` traced by the model that is exact for its hole; a field is exact itself."""
     if is_field(scene):
         return scene.with_values({"rays.lensing": True, "rays.orders": 3})
-    return scene.with_values({"rays.model": "schwarzschild" if scene.hole.spin == 0.0 else "kerr", "rays.lensing": True, "rays.orders": 3})
+    kerr = scene.hole.spin != 0.0 or is_inside(scene)
+    return scene.with_values({"rays.model": "kerr" if kerr else "schwarzschild", "rays.lensing": True, "rays.orders": 3})
 
 
 def critical_radius(scene: Scene, chi: np.ndarray) -> np.ndarray:
-    """The shadow's edge in the screen direction `chi`: ψ in radians, or √(α² + β²) in M for a camera at infinity."""
+    """The shadow's edge in the screen direction `chi`: ψ in radians, or √(α² + β²) in M for a camera at infinity.
+
+    For one that moves both are about where it sees the hole's centre (`lensed_circles.directions`), and ψ is true within 3e-5 of itself.
+    """
     seen = observer.observe(true_scene(scene))
+    if observer.is_moving(scene.camera):
+        return lensed_circles.shadow_edge(seen, chi)
     distance = min(scene.camera.distance, _FAR)
     kind = "static" if seen.kind == "infinity" else seen.kind
     psi = relativity.shadow_angle(chi, distance, math.radians(scene.camera.inclination_deg), scene.hole.spin, kind)
@@ -135,8 +158,9 @@ def chart_scenes(quick: bool = False) -> list[ChartScene]:
     """The chart's own scenes, then every shipped physics and scene preset that `is_charted` but those of another's view; a quick run has `SHOWN` alone."""
     kerr = presets.load(["kerr"])
     own = {}
-    for name, (spin, distance, inclination, view) in _OWN.items():
-        own[name] = kerr.with_values({"hole.spin": spin, "camera.distance": distance, "camera.inclination_deg": inclination, "camera.fov_deg": view})
+    for name, (spin, distance, inclination, view, seen_by) in _OWN.items():
+        camera = {"camera.distance": distance, "camera.inclination_deg": inclination, "camera.fov_deg": view, "camera.observer": seen_by}
+        own[name] = kerr.with_values({"hole.spin": spin, **camera})
     if quick:
         return [ChartScene(name, own[name], 400, whole=False) for name in SHOWN]
     shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group in ("physics", "scene")}
@@ -150,12 +174,13 @@ def view_of(scene: Scene) -> tuple[object, ...]:
     """All of `scene` that its measurements depend on, beside the method."""
     camera, disk = scene.camera, scene.disk
     view = camera.distance, camera.inclination_deg, camera.fov_deg, camera.field_m, camera.observer
-    return scene.hole.spin, *view, disk.enabled, disk.inner_radius, disk.outer_radius, disk.orbit
+    motion = camera.fall_from, camera.velocity_right, camera.velocity_up, camera.velocity_forward, camera.aberration
+    return scene.hole.spin, *view, *motion, disk.enabled, disk.inner_radius, disk.outer_radius, disk.orbit
 
 
 def is_charted(scene: Scene) -> bool:
-    """Whether the chart measures `scene`: a hole as it is, by light as it goes there, a camera at rest, and nothing to meet but a disk in its equator, as the
-    reference knows no more."""
+    """Whether the chart measures `scene`: a hole as it is, by light as it goes there, and nothing to meet but a disk in its equator, as the reference knows no
+    more."""
     plain = met.is_empty(scene) and not scene.disk.tilt_deg and scene.sky.model != "picture"  # which a hole bends as it does any sky
     as_it_is = is_physical(scene) and ray_model(scene).traits.exact and scene.rays.lensing
-    return as_it_is and not observer.is_moving(scene.camera) and plain and not is_field(scene)
+    return as_it_is and plain and not is_field(scene)

@@ -10,9 +10,13 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 
 from .. import planning
+from ..physics.observer import RESTING
+from ..physics.space_time import is_inside
 from ..planning import Plan
 from ..rendering.frame import Renderer
 from ..scene import Scene
+
+_JUST_OUTSIDE = 1.1  # r_s: of every hole
 
 
 @dataclass(frozen=True)
@@ -31,8 +35,14 @@ class Timing:
 
 
 def flat_scene(scene: Scene) -> Scene:
-    """The same scene with straight rays: the yardstick."""
-    return scene.with_values({"rays.lensing": False})
+    """The same scene with straight rays: the yardstick.
+
+    In flat space nothing falls or circles, and its black ball has no inside: there the camera rests, just outside where it was inside.
+    """
+    camera = scene.camera
+    observer = camera.observer if camera.observer in RESTING else "static"
+    distance = _JUST_OUTSIDE if is_inside(scene) else camera.distance
+    return scene.with_values({"rays.lensing": False, "camera.observer": observer, "camera.distance": distance})
 
 
 def euler_plan(scene: Scene) -> Plan:
@@ -40,8 +50,10 @@ def euler_plan(scene: Scene) -> Plan:
 
     Every ray that is not captured takes all 300: the step is so short that none gets out of the march's bound before.
     """
-    values = {"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.max_steps": 300, "hole.spin": 0.0}
-    slow = planning.plan(scene.with_values(values))
+    resting = flat_scene(scene)
+    values = {"rays.model": "schwarzschild", "rays.integrator": "euler", "rays.step_control": "fixed", "rays.max_steps": 300, "rays.lensing": True}
+    outside = {"hole.spin": 0.0, "camera.distance": max(resting.camera.distance, _JUST_OUTSIDE)}
+    slow = planning.plan(resting.with_values({**values, **outside}))
     return replace(slow, step_length=slow.march_bound / 300.0)
 
 

@@ -148,7 +148,12 @@ def critical_points(observer: Observer, samples: int) -> tuple[Float[Array, " sa
     square, slope = 1.0 + w * w * (c2 + w * (c3 + w * c4)), w * (2.0 * c2 + w * (3.0 * c3 + w * 4.0 * c4))
     w_rate = -np.sign(slope) * np.sqrt(np.maximum(square, 0.0))
     seen = np.linalg.solve(observer.tetrad, np.stack([np.ones_like(lam), w_rate, -up, aside]))
-    return screen_angles((seen[1:] / seen[0]).T @ _about_hole(observer))
+    return from_hole(observer, (seen[1:] / seen[0]).T)
+
+
+def from_hole(observer: Observer, directions: Float[Array, "*rays 3"]) -> tuple[Float[Array, "*rays"], Float[Array, "*rays"]]:
+    """How far from the hole's centre local `directions` (…, 3) are, in radians, and at which angles on the screen. Not for a far observer."""
+    return screen_angles(directions @ _about_hole(observer))
 
 
 def directions(observer: Observer, away: Float[Array, "*at N"], angles: Float[Array, " N"]) -> Float[Array, "*at N 3"]:

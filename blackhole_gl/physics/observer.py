@@ -23,6 +23,9 @@ from .space_time import SpaceTime, space_time
 # Half a picture's height at distance 1 per degree of view is no more than this; a direction to the hole less ahead than its inverse is off every screen.
 _LEAST_AHEAD = 1e-3
 
+RESTING = ("static", "zamo")
+"""The observers that there are in flat space, too."""
+
 FALLING = ("rain", "fall")
 """The observers that may be inside a horizon."""
 
@@ -140,9 +143,18 @@ def observe(scene: Scene) -> Observer:
     return _moving(seen, frame, camera)
 
 
+def is_possible(scene: Scene) -> bool:
+    """Whether there is an observer where the camera of `scene` is, in the space-time of its ray model."""
+    try:
+        observe(scene)
+    except SceneError:
+        return False
+    return True
+
+
 def is_moving(camera: Camera) -> bool:
     """Whether the observer of `camera` moves against one at rest in his place."""
-    return camera.observer not in ("static", "zamo") or any((camera.velocity_right, camera.velocity_up, camera.velocity_forward))
+    return camera.observer not in RESTING or any((camera.velocity_right, camera.velocity_up, camera.velocity_forward))
 
 
 def _moving(seen: Observer, frame: observer_frames.Frame, camera: Camera) -> Observer:

@@ -122,6 +122,11 @@ def is_field(scene: Scene) -> bool:
     return known is not None and known.traits.field
 
 
+def is_inside(scene: Scene) -> bool:
+    """Whether the camera of `scene` is inside the horizon."""
+    return scene.camera.distance <= space_time(scene).horizon_radius
+
+
 @lru_cache(maxsize=256)
 def _space_time(kind: str, spins: bool, hole_spin: float, has_hole: bool, crosses_horizon: bool) -> SpaceTime:
     spin = hole_spin if spins else 0.0

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from ..physics import projection
-from ..physics.space_time import is_field, ray_model, space_time
+from ..physics.space_time import is_field, is_inside, ray_model
 from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
 from ..scene.schema import number_of
@@ -32,11 +32,14 @@ _WRONG_FATES = 0.01
 # A measured scene this near (see `_distance`) is the scene itself; otherwise the worse of the two nearest is believed.
 _SAME = 0.02
 
+# Measured costs are no better known than this: of marches that are so nearly as cheap as the cheapest the most accurate is taken.
+_AS_CHEAP = 1.03
+
 # Steps where nothing was measured: κ = 0.2 rad and Δt₀ = 0.1 r_s are half a pixel in the default scene.
 _PLAIN_ANGLE, _PLAIN_LENGTH = 0.2, 0.1
 
 # Inside the horizon those of rk4 err by 0.5 to 33 pixels; these by less than half of one over the whole sky, at spins up to 0.998
-# (tests/shaders/test_through_horizon.py).
+# (tests/shaders/test_through_horizon.py). The chart's views from there look at the hole, and errors behind the camera are ten times as large.
 _INSIDE_INTEGRATOR, _INSIDE_ANGLE = "nystrom5", 0.14
 
 _TRIAL_ANGLE, _TRIAL_LENGTH = 0.4, 0.5
@@ -97,7 +100,7 @@ class Choice:
 
 @lru_cache(maxsize=64)
 def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
-    """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open.
+    """The cheapest method that meets ``rays.tolerance`` in `scene`, as far as the scene leaves it open; of marches as cheap the most accurate.
 
     Args:
         sky_alone: whether a method will do that shows nothing but the sky rightly, where there is nothing else.
@@ -118,14 +121,21 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     if by_things:
         good.sort(key=_adapts)
     ranked = good or sorted(found, key=lambda p: p.error_px)
-    best = ranked[0]
-    rival = next((p for p in ranked[1:] if p.method.kind != best.method.kind), None)
+    best = _most_accurate_of_those_as_cheap(ranked) if good else ranked[0]
+    rival = next((p for p in ranked if p.method.kind != best.method.kind), None)
     reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
     if by_things:
         reasons.append("methods whose steps have one length come first: by those coarse rays tell where things are seen while the camera moves")
     if rival is not None:
         reasons.append(f"runner-up: {rival.method}, {rival.error_px:.2g} px at {rival.cost:.3g} flat frames")
     return Choice(_stated(scene, best), best, rival, floor, bool(good), tuple(reasons))
+
+
+def _most_accurate_of_those_as_cheap(ranked: Sequence[Prediction]) -> Prediction:
+    """Of marches that are as cheap as the first of `ranked`; the first itself where it is a closed form."""
+    first = ranked[0]
+    alike = [p for p in ranked if p.method.integrator and _adapts(p) == _adapts(first) and p.cost <= _AS_CHEAP * first.cost]
+    return min(alike, key=lambda p: p.error_px) if first.method.integrator else first
 
 
 def _adapts(found: Prediction) -> bool:
@@ -280,17 +290,15 @@ def _not_measured(scene: Scene) -> str:
         return "" if _nearest_scenes(scene) else "a field of which nothing was measured: plain steps"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
-    if scene.camera.distance <= space_time(scene).horizon_radius:
+    if is_inside(scene):
         return f"from inside the horizon: the model that leads through it; {_INSIDE_INTEGRATOR} with κ = {_INSIDE_ANGLE} errs by less than half a pixel there"
-    if not measurements():
-        return "no measurements are stored: plain steps"
-    return ""
+    return "" if _nearest_scenes(scene) else "no measurements are stored: plain steps"
 
 
 def _plainly(scene: Scene) -> Scene:
     """`scene` with the exact general model for its hole and plain steps where it leaves them open."""
-    model, inside = ray_model(scene), scene.camera.distance <= space_time(scene).horizon_radius
-    integrator, angle = (_INSIDE_INTEGRATOR, _INSIDE_ANGLE) if inside else ("rk4", _PLAIN_ANGLE)
+    model = ray_model(scene)
+    integrator, angle = (_INSIDE_INTEGRATOR, _INSIDE_ANGLE) if is_inside(scene) else ("rk4", _PLAIN_ANGLE)
     values = {
         "rays.model": model.key,
         "rays.integrator": integrator if scene.rays.integrator == AUTO else scene.rays.integrator,
@@ -345,7 +353,7 @@ def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
 
 
 def _alike(scene: Scene) -> Iterator[tuple[str, Sequence[Measured]]]:
-    """The measured scenes of the same field as `scene`, or of holes where it has none: their names and rows.
+    """The measured scenes of the same field as `scene`, or of holes from outside where it has none: their names and rows.
 
     A field that was not measured is like the one of its kind that is as it comes.
     """
@@ -353,7 +361,8 @@ def _alike(scene: Scene) -> Iterator[tuple[str, Sequence[Measured]]]:
     field = (field_text(scene) if _is_as_measured(scene) else "") if is_field(scene) else None
     for name, rows in measurements().items():
         row = rows[0]
-        if not models[row.model].traits.field if field is None else (row.model, row.field) == (scene.rays.model, field):
+        of_hole = not models[row.model].traits.field and not row.from_inside
+        if of_hole if field is None else (row.model, row.field) == (scene.rays.model, field):
             yield name, rows
 
 

@@ -6,7 +6,7 @@ import math
 from functools import lru_cache
 
 from ..physics import motion, projection
-from ..physics.space_time import SpaceTime, is_field, ray_model, space_time
+from ..physics.space_time import SpaceTime, is_field, is_inside, ray_model, space_time
 from ..scene import Scene, SceneError, catalogue, instances, met
 from ..scene.catalogue import PlugIn
 from . import choice, media_steps
@@ -164,7 +164,7 @@ def _meetings(scene: Scene) -> int:
     """
     if met.is_empty(scene):
         return 0
-    if scene.camera.distance <= space_time(scene).horizon_radius:
+    if is_inside(scene):
         text = f"got {scene.camera.distance:g} r_s, inside the horizon, from where things and media are not met: allowed is outside"
         raise SceneError("camera.distance", text)
     media = met.reach_of(scene, "medium")
@@ -213,7 +213,7 @@ def _why_no_time(scene: Scene) -> str:
         return f"{model.key} is light of no hole's own space-time"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no clocks"
-    if scene.camera.distance <= space_time(scene).horizon_radius:
+    if is_inside(scene):
         return "at the horizon the time of those far away has no end, and the camera is inside"
     return ""
 

@@ -11,6 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from ..physics import relativity
+
 
 @dataclass(frozen=True)
 class Method:
@@ -73,6 +75,11 @@ class Measured:
     refined: int
     cost_unrefined: float
     field: str = dataclasses.field(default="", kw_only=True)
+
+    @cached_property
+    def from_inside(self) -> bool:
+        """Whether the camera is inside the hole's horizon."""
+        return self.distance <= float(relativity.horizon_radius(self.spin))
 
     @cached_property
     def stated(self) -> Method:

@@ -203,7 +203,7 @@ void march_once(Orbit orbit, inout March m) {
     m.trial = step_within_turn(orbit, m.s, m.trial);
 #endif
     m.next = adapted_step(orbit, m.s, m.trial, m.h);
-    m.next = completed(orbit, m.s, m.h, m.next);
+    if (m.h != 0.0) m.next = completed(orbit, m.s, m.h, m.next);  // 0: refused, to be tried again shorter
 #else
     m.h = step_size(orbit, m.s);
 #if DISK_TILTED

@@ -12,6 +12,7 @@ from blackhole_gl import listed_rays, planning
 from blackhole_gl.measure import refined
 from blackhole_gl.measure.errors import compare
 from blackhole_gl.measure.scenes import NEAR_CRITICAL, ChartScene, is_charted
+from blackhole_gl.physics.space_time import is_inside
 from blackhole_gl.planning import choice
 from blackhole_gl.scene import presets
 from tests.sampled import sampled
@@ -44,4 +45,4 @@ def test_while_the_camera_moves_the_tolerance_is_kept_too(renderer, place):
     errors = refined.errors(renderer, place, planning.plan(scene).scene)
     assert choice.error_px(scene, errors.direction_99, errors.crossing_r_99, choice.REFINED_SIZE[1]) <= scene.rays.tolerance
     assert errors.wrong_fates <= 0.01
-    assert errors.lost_crossings <= 0.01
+    assert is_inside(scene) or errors.lost_crossings <= 0.01, "inside the horizon there is no disk, whose plane the twin meets all the same"

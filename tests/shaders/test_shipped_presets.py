@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.measure.scenes import is_charted
+from blackhole_gl.physics.observer import is_moving
 from blackhole_gl.planning import Plan, plan
 from blackhole_gl.rendering import diagnostics
 from blackhole_gl.rendering.frame import Renderer
@@ -106,8 +107,9 @@ def test_steps_that_are_lengthened_and_err_are_told(renderer: Renderer) -> None:
     assert not renderer.render(presets.load(["gargantua_s1"]), 0.0, SMALL).warnings
 
 
-# Things stand on one side of the plane y = 0, and fields are no holes that spin.
-MIRRORED = [(name, "blackholegpu_medium") for name in WHOLE if is_charted(presets.load([name]))] + [("kerr_0998_85", quality) for quality in QUALITIES]
+# Things stand on one side of the plane y = 0, fields are no holes that spin, and a camera on an orbit moves out of that plane.
+STILL = [name for name in WHOLE if is_charted(scene := presets.load([name])) and not is_moving(scene.camera)]
+MIRRORED = [(name, "blackholegpu_medium") for name in STILL] + [("kerr_0998_85", quality) for quality in QUALITIES]
 
 
 @pytest.mark.parametrize("name, quality", MIRRORED)

@@ -75,6 +75,19 @@ def test_the_plans_own_steps_inside_err_by_less_than_half_a_pixel(renderer: Rend
     assert np.quantile(off, 0.99) < 0.5 * math.radians(45.0) / 1080
 
 
+@pytest.mark.parametrize("spin, distance", [(0.0, 0.12), (0.9, 0.6)])
+def test_steps_that_are_refused_leave_no_trace(renderer: Renderer, spin: float, distance: float) -> None:
+    """Of a step that an adaptive control refuses nothing is left but a shorter one to try: its twist was 0/0, and a third of the rays had no end."""
+    steps = {"rays.integrator": "dopri5", "rays.step_control": "embedded", "rays.embedded.tolerance": 1e-4}
+    scene = falling(spin, distance, **steps)
+    psi = np.radians([20.0, 60.0, 75.0, 85.0, 100.0, 150.0])
+    rays = np.column_stack([np.repeat(psi, len(CHI)), np.tile(CHI, len(psi))])
+    found, twin = listed_rays.trace_by_shader(renderer, scene, rays), listed_rays.trace_by_reference(scene, rays)
+    np.testing.assert_array_equal(found.fate, twin.fate)
+    off = np.linalg.norm(found.direction - twin.direction, axis=1)[found.fate == 1]
+    assert off.max() < 1e-3  # a dozen steps of 1e-4
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("spin, distance", [(0.9, 3.0), (0.9, 1.5), (0.9, 0.9), (0.9, 0.75), (0.9, 0.6), (0.9, 0.3), (0.0, 0.5), (0.0, 0.1)])
 def test_a_thousand_rays_of_a_fall_are_those_of_kerr_and_schild(renderer: Renderer, spin: float, distance: float) -> None:
