@@ -57,6 +57,11 @@ class View:
         """The angle in radians of a pixel in the middle."""
         return 2.0 * self.half[1] / self.size[1]
 
+    @property
+    def most_latitude(self) -> float:
+        """How far its middle may be from a grid's equator, in radians, before that cannot show it."""
+        return min(math.radians(_MIDDLE_WITHIN_DEG), math.radians(_ALL_WITHIN_DEG) - math.atan(self.half[1]))
+
     def going_on(self, before: View, pixels: int) -> View:
         """Where it will be when it has gone on by so many `pixels` as it has come from `before`; itself where it rests, or goes as far in one step."""
         if self.size != before.size:
@@ -67,6 +72,12 @@ class View:
         steps = int(pixels / step) if step > 1e-3 else 0
         grown = zoom**steps
         return replace(self, look=np.linalg.matrix_power(turn, steps) @ self.look, half=(grown * self.half[0], grown * self.half[1]))
+
+    def new_since(self, before: View) -> float:
+        """About the share of the picture that one of `before` did not show, 0…2, where it has turned by less than half round."""
+        back, down, right = -before.look[:, 0] @ self.look
+        ahead = max(-back, 1e-6)
+        return 0.5 * (min(abs(right) / (ahead * self.half[0]), 2.0) + min(abs(down) / (ahead * self.half[1]), 2.0))
 
     @property
     def mesh_side(self) -> int:
@@ -115,11 +126,13 @@ class DirectionGrid:
     start: tuple[int, int] = (0, 0)
 
     @classmethod
-    def about(cls, camera: Camera, view: View, finer: float, margin: float, least: int = 0) -> DirectionGrid | None:
+    def about(cls, camera: Camera, view: View, finer: float, margin: float, least: int = 0, rise_deg: float = 0.0) -> DirectionGrid | None:
         """One that holds the `view` of `camera` and `margin` of its width and height more on each side, `least` pixels at that. Its pixels are `finer` times as
-        many along each axis as in the view's middle. None where the view is too wide for one."""
-        tilted = abs(camera.pitch_deg) > _TILT_DEG or abs(camera.roll_deg) > _TILT_DEG
-        pitch, roll = (camera.pitch_deg, camera.roll_deg) if tilted else (0.0, 0.0)
+        many along each axis as in the view's middle, and its equator goes where the camera looks when it has turned up by `rise_deg`. None where the view is
+        too wide for one."""
+        pitch = min(max(camera.pitch_deg + rise_deg, -90.0), 90.0)
+        tilted = abs(pitch) > _TILT_DEG or abs(camera.roll_deg) > _TILT_DEG
+        pitch, roll = (pitch, camera.roll_deg) if tilted else (0.0, 0.0)
         rows = 2 * round(0.5 * math.pi * finer / view.pixel)
         level = Camera(distance=camera.distance, yaw_deg=camera.yaw_deg, pitch_deg=pitch, roll_deg=roll)
         whole = cls(look_rotation(level), camera.yaw_deg, pitch, roll, rows, (0, 0), (2 * rows, rows))
@@ -175,7 +188,11 @@ class DirectionGrid:
 
     def is_level_with(self, view: View) -> bool:
         """Whether the middle of `view` is so near to its equator that another grid would not have it much nearer."""
-        return abs(math.asin(-float((self.axes.T @ -view.look[:, 0])[1]))) < math.radians(_TILT_DEG + 1.0)
+        return abs(self.latitude(view)) < math.radians(_TILT_DEG + 1.0)
+
+    def latitude(self, view: View) -> float:
+        """Of the middle of `view`, in radians from its equator."""
+        return math.asin(min(max(-float((self.axes.T @ -view.look[:, 0])[1]), -1.0), 1.0))
 
     def holds(self, view: View, beside: int = 0) -> bool:
         """Whether all of `view` lies in it, and so many pixels `beside` that."""

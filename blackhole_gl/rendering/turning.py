@@ -6,24 +6,25 @@ of the grid is then filtered into the view's own pixels, and single stars are dr
 frames in motion. One at rest has rays of its own.
 
 The first grid of a movement is coarse, so that its first picture is there soon. One with pixels as wide as the view's takes its place when it has all that is
-seen, with some of its rays in each frame; as does another where the view zooms, or leaves the equator of the grid.
+seen, with some of its rays in each frame; as does another where the view zooms, or leaves the equator of the grid (grid_choice.py).
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 
 import moderngl
 import numpy as np
 
-from ..physics import projection
 from ..planning import Plan
-from ..scene import Scene
+from ..scene import Camera, Scene
 from ..shapes import Bool, Int
 from . import kept_light
 from .boxes import Box, joined
 from .direction_grid import CELL, DirectionGrid, View
+from .grid_choice import BESIDE, COARSE, MOST, ZOOMS, finer_of, is_late, rise_deg, scale, wanted
 from .inputs import FrameInputs
 from .known_light import KnownLight
 from .post import PostPass
@@ -36,25 +37,14 @@ from .uniforms import stars_a_pixel
 
 _STAYS = 4  # pictures of one view that follow one that has turned, before it counts as resting: hands do not turn in every frame
 
-# Pixels of a grid to those of a view, along each axis of its middle; of one whose picture is not made in every frame, and which shows all of its stars.
-_FINER, _FINER_LASTING = 1.0, 1.2
 # Widths and heights of a view that a grid holds: of one that turns; that has zoomed in for some frames; and that zooms out, with pixels as wide as the grid's.
 _ROOM, _ROOM_IN, _ROOM_OUT = 1.25, 1.12, 1.35
-_UNLIKE = 1.05  # change of a view's pixel from which on another grid is begun
-
-# Pixels of a new grid to those of a view: of the first, and of one that is begun while a view zooms in, ahead of it.
-_COARSE, _AHEAD_IN = 2.0, 0.8
-_ZOOMS = 1e-3  # change of a view's pixel from frame to frame from which on it does
-
-# A view that zooms out gets a grid with pixels as wide as its own so many frames later, no more than `_MOST_OUT` times as wide as they are; the wider, the
-# earlier, as what is new of the view needs ever more of the old one's. One that is coarser than `_SOFT` by then is not waited for to become right, and one that
-# holds fewer than so many widths of the view not either.
-_FRAMES_OUT, _MOST_OUT, _SOFT, _TIGHT = 70, 2.0, 0.7, 1.3
-_MOST = 0.042  # share of the picture's pixels that get rays in a frame, if the view needs no more
+# Share of the picture's pixels that get rays in a frame, while it zooms in on a grid that is not coarse: in each, as the next is begun when one is there.
+_MOST_IN, _COARSE_IN = 0.028, 0.55
 _LEAP, _COARSEST = 0.2, 0.3  # the same, where a coarse grid is begun instead; and how fine one is of what the view needs, for which it is, too
-_WORTH, _WORTH_OUT = (0.7, 1.6), (0.45, 1.0)  # how fine the pixels of a grid that is being made may be, of what the view needs; while that zooms out
+_WORTH, _WORTH_IN, _WORTH_OUT = (0.45, 1.6), (0.7, 1.6), (0.45, 1.0)  # how fine a grid that is being made may be, of what the view needs; while that zooms
 _AHEAD = CELL  # pixels beside a view of which none is left out when more of it is traced
-_BESIDE, _MOVED = 4 * CELL, 7 * CELL  # pixels that a grid has on each side of a view, but about the poles; and when it has been moved
+_MOVED = 7 * CELL  # pixels that a grid has on each side of a view when it has been moved
 _FIRST_OF = 3  # of its width, that a view goes on by, lies the middle of what a grid that is being made gets first
 _SPARE = 48  # pixels beside a view that are traced before it comes to them, and drawn where nothing but the view moves
 _FEW = 4  # stars in a pixel: of a sky that may show more all but the brightest would become a haze
@@ -130,7 +120,7 @@ class TurningPass:
     @property
     def prepares(self) -> bool:
         """Whether another grid is being made, so that what a picture takes says little of others."""
-        return self._next is not None
+        return self._next is not None and self._shown is not None and self._lacks(self._next, self._shown[1]) > 0
 
     def draw(
         self,
@@ -157,7 +147,7 @@ class TurningPass:
             Unready: a program is missing; nothing has been drawn.
         """
         view = View.of(plan.scene.camera, size)
-        known = self._known_for(place_of(scene), plan, time, view, shown, before)
+        known = self._known_for(place_of(scene), plan, time, view, shown, before.camera)
         if known is None:
             return False
         inputs = known.inputs(plan, time)
@@ -172,7 +162,9 @@ class TurningPass:
         self._turn(known, inputs, view, made.box, target, viewport)
         if self._next is not None:
             middle = view if self._shown is None else view.going_on(self._shown[1], view.size[0] // _FIRST_OF)
-            self._extend_next(self._next, plan, time, view, middle)
+            zooms_in = view.pixel < View.of(before.camera, size).pixel * (1.0 - ZOOMS)
+            most = _MOST_IN if zooms_in and scale(known.grid, view, finer_of(plan)) > _COARSE_IN else MOST
+            self._extend_next(self._next, plan, time, view, middle, most)
         self._shown = inputs, view
         if shown is None:
             self.draw_stars(target, viewport)
@@ -204,33 +196,51 @@ class TurningPass:
             self._picture.release()
         self._picture = None
 
-    def _known_for(self, key: Scene, plan: Plan, time: float, view: View, shown: tuple[int, int] | None, before: Scene) -> KnownLight | None:
-        """What serves `view`, which comes after that of `before`, of a camera in the place of `key`; None where it is too wide for a grid."""
-        zoom = projection.half_height(plan.scene.camera) / projection.half_height(before.camera)
+    def _known_for(self, key: Scene, plan: Plan, time: float, view: View, shown: tuple[int, int] | None, last: Camera) -> KnownLight | None:
+        """What serves `view`, which comes after that of the camera `last` in the place of `key`; None where it is too wide for a grid."""
+        before, finer, begun = View.of(last, view.size), finer_of(plan), partial(self._begun, key, plan, view, shown, last)
         if self._known is not None and not self._known.serves(key, plan, time):
             self.forget()
-        low, high = _WORTH_OUT if zoom > 1.0 + _ZOOMS else _WORTH
-        if self._next is not None and not (self._follow(self._next, view) and low < _scale(self._next.grid, view, _finer(plan)) < high):
+        if self._next is not None and not self._is_worth(self._next, view, before, finer):
             self._next = self._given_back(self._next)
-        if self._next is not None and self._is_ready(self._next, view):
+        serves = self._known is not None and self._serves(self._known, view, finer)
+        if self._next is not None and self._is_due(self._next, view, before, finer, serves):
             self._take(self._next)
             self._next = None
-        if self._known is None or not self._serves(self._known, plan, view):
-            self._take(self._begun(key, plan, view, shown, _COARSE, zoom))
-        if self._known is not None and self._next is None and plan.scene.camera != before.camera:
-            wider = _wanted(self._known.grid, view, _finer(plan), zoom)
-            self._next = None if wider is None else self._begun(key, plan, view, shown, wider, zoom)
+        elif not serves:
+            self._take(begun(COARSE))
+        if self._known is not None and self._next is None and plan.scene.camera != last:
+            wider = wanted(self._known.grid, view, before, finer)
+            self._next = None if wider is None else begun(wider)
         return self._known
 
-    def _serves(self, known: KnownLight, plan: Plan, view: View) -> bool:
+    def _is_worth(self, known: KnownLight, view: View, before: View, finer: float) -> bool:
+        """Whether what is `known` is to be made ready for `view`, which comes after `before`: it holds that, is about as fine, and will be there in time."""
+        zoom = view.pixel / before.pixel
+        low, high = _WORTH_OUT if zoom > 1.0 + ZOOMS else _WORTH_IN if zoom < 1.0 - ZOOMS else _WORTH
+        if not (self._follow(known, view) and low < scale(known.grid, view, finer) < high):
+            return False
+        lacking = self._lacks(known, view) / (view.size[0] * view.size[1])
+        return self._known is None or not is_late(known.grid, lacking, self._known.grid, view, before)
+
+    def _is_due(self, known: KnownLight, view: View, before: View, finer: float, serves: bool) -> bool:
+        """Whether what is `known` is to take the place of what is seen, which `serves` or not: where that does, all that `view` shows is to be there, and one
+        that is coarser waits, unless the view zooms out."""
+        if not serves:
+            return self._serves(known, view, finer)
+        fine = scale(known.grid, view, finer)
+        waits = self._known is not None and view.pixel <= before.pixel * (1.0 + ZOOMS) and fine < min(0.95, 0.95 * scale(self._known.grid, view, finer))
+        return not waits and not self._lacks(known, view)
+
+    def _serves(self, known: KnownLight, view: View, finer: float) -> bool:
         """Whether what is `known` will do for `view`: it holds that, has most of it, and is not far coarser than it."""
-        if not self._follow(known, view) or _scale(known.grid, view, _finer(plan)) < _COARSEST:
+        if not self._follow(known, view) or scale(known.grid, view, finer) < _COARSEST:
             return False
         return self._lacks(known, view) <= _LEAP * view.size[0] * view.size[1]
 
     def _follow(self, known: KnownLight, view: View) -> bool:
         """Moves the grid of what is `known` where it has to be moved for `view`; whether it holds that."""
-        if known.grid.holds(view, _BESIDE):
+        if known.grid.holds(view, BESIDE):
             return True
         moved = known.grid.moved_to(view, _MOVED)
         if moved is None:
@@ -248,15 +258,13 @@ class TurningPass:
         if known is not None:
             known.release()
 
-    def _begun(self, key: Scene, plan: Plan, view: View, shown: tuple[int, int] | None, wider: float, zoom: float) -> KnownLight | None:
+    def _begun(self, key: Scene, plan: Plan, view: View, shown: tuple[int, int] | None, last: Camera, wider: float) -> KnownLight | None:
         """With pixels so many times as wide as the view needs."""
-        room = _ROOM_OUT * wider if zoom > 1.0 + _ZOOMS else _ROOM_IN if wider < 1.0 else _ROOM
-        grid = DirectionGrid.about(plan.scene.camera, view, _finer(plan) / wider, 0.5 * (room - 1.0), _MOVED + CELL)
+        camera = plan.scene.camera
+        room = _ROOM_OUT * wider if view.pixel > View.of(last, view.size).pixel * (1.0 + ZOOMS) else _ROOM_IN if wider < 1.0 else _ROOM
+        about = partial(DirectionGrid.about, camera, view, finer_of(plan) / wider, 0.5 * (room - 1.0), _MOVED + CELL)
+        grid = about(rise_deg(camera, last)) or about()  # a wide view has none but about itself
         return None if grid is None else KnownLight(self._ctx, self._programs, self._light_by, key, plan, grid, _finer_of_stars(plan.scene, view, shown, grid))
-
-    def _is_ready(self, known: KnownLight, view: View) -> bool:
-        """Whether all that `view` shows is in `known`."""
-        return not (known.grid.seen(view) & ~known.cells).any()
 
     def _lacks(self, known: KnownLight, view: View) -> int:
         """How many pixels `known` lacks of what `view` shows."""
@@ -266,12 +274,12 @@ class TurningPass:
         """Whether `known` lacks any of what `view` shows, or of what is just beside that or `coming`."""
         return bool(((known.grid.seen(view, _AHEAD) | known.grid.seen(coming)) & ~known.cells).any())
 
-    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View) -> None:
-        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle of what is `coming`
-        outwards: the rest is soon seen no more."""
+    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View, most: float) -> None:
+        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for of `most` over its pixels, from the
+        middle of what is `coming` outwards: the rest is soon seen no more."""
         seen = known.grid.seen(view, _AHEAD)
         left = np.argwhere(seen & ~known.cells)
-        cells = _cells(view, known) - self._extended
+        cells = _cells(view, known, most) - self._extended
         if len(left) and cells > 0:
             shown = known.grid.seen(view)[tuple(left.T)]
             inner = np.lexsort((-known.grid.ahead(coming)[tuple(left.T)], ~shown))[:cells]
@@ -281,7 +289,7 @@ class TurningPass:
 
     def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, coming: View) -> None:
         """Traces what `view` shows and `known` lacks, and as much of what is beside it, and of what is `coming`, as the frame has rays for."""
-        grid, most, fresh = known.grid, _cells(view, known), np.zeros_like(known.cells)
+        grid, most, fresh = known.grid, _cells(view, known, MOST), np.zeros_like(known.cells)
         shown = grid.seen(view)
         for seen in (shown, grid.seen(view, _AHEAD), grid.seen(coming, 0 if self._next is not None else 2 * _AHEAD)):
             left = np.argwhere(seen & ~known.cells & ~fresh)
@@ -361,32 +369,9 @@ class _Made:
         return inside and not (known.grid.seen(view) & ~self.cells).any()
 
 
-def _cells(view: View, known: KnownLight) -> int:
-    """How many may get rays in a frame."""
-    return int(_MOST * view.size[0] * view.size[1] / known.rays_a_pixel) // CELL**2
-
-
-def _finer(plan: Plan) -> float:
-    return _FINER_LASTING if kept_light.stands(plan) else _FINER
-
-
-def _scale(grid: DirectionGrid, view: View, finer: float) -> float:
-    """How fine the pixels of `grid` are, of what they should be for `view`."""
-    return view.pixel / (finer * grid.pixel)
-
-
-def _wanted(grid: DirectionGrid, view: View, finer: float, zoom: float) -> float | None:
-    """The pixels, in those of `view`, that another grid should have; None where `grid` will do. `zoom`: how much wider they are than in the last frame."""
-    scale = _scale(grid, view, finer)
-    if zoom > 1.0 + _ZOOMS:
-        ahead = min(zoom**_FRAMES_OUT, _MOST_OUT)
-        soon = ahead**0.6
-        if scale > _UNLIKE / ahead**0.2 or grid.size[0] < _TIGHT * grid.box(view)[2]:
-            return ahead
-        return soon if scale * soon < _SOFT else None
-    if zoom < 1.0 - _ZOOMS:
-        return _AHEAD_IN if scale < 1.0 / _UNLIKE else None
-    return None if 1.0 / _UNLIKE < scale < _UNLIKE and grid.is_level_with(view) and grid.holds(view, _BESIDE) else 1.0
+def _cells(view: View, known: KnownLight, most: float) -> int:
+    """How many may get rays in a frame, `most` over its pixels."""
+    return int(most * view.size[0] * view.size[1] / known.rays_a_pixel) // CELL**2
 
 
 def _finer_of_stars(scene: Scene, view: View, shown: tuple[int, int] | None, grid: DirectionGrid) -> float:

@@ -53,6 +53,13 @@ def test_after_the_first_few_rays_are_marched(renderer: Renderer, preset: str, m
     assert max(marched[2:]) <= 0.05
 
 
+@pytest.mark.parametrize(("right", "up", "count"), [(0.0, 0.5, 110), (0.5, 0.5, 70), (0.0, -1.0, 56), (1.0, 1.0, 44)])
+def test_a_view_that_turns_up_goes_on_with_few_rays(renderer: Renderer, right: float, up: float, count: int) -> None:
+    """By degrees a frame, past the latitudes of more than one grid of directions: 5 % of the pixels in each frame, where the next grid was begun too late."""
+    move = lambda scene, n: scene.with_values({"camera.yaw_deg": right * n, "camera.pitch_deg": up * n})  # noqa: E731
+    assert max(report.marched for report in list(frames(renderer, presets.load(["kerr"]), move, count))[2:]) <= 0.05 * PIXELS
+
+
 def test_zooming_out_needs_few_rays_too(renderer: Renderer) -> None:
     """One per cent a frame, to two and a half times the view and more: 5 % of the pixels in each frame."""
     scene = presets.load(["kerr"], {"camera.fov_deg": "22"})
