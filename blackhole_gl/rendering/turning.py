@@ -39,13 +39,14 @@ _STAYS = 4  # pictures of one view that follow one that has turned, before it co
 
 # Widths and heights of a view that a grid holds: of one that turns; that has zoomed in for some frames; and that zooms out, with pixels as wide as the grid's.
 _ROOM, _ROOM_IN, _ROOM_OUT = 1.25, 1.12, 1.35
-# Share of the picture's pixels that get rays in a frame, while it zooms in on a grid that is not coarse: in each, as the next is begun when one is there.
-_MOST_IN, _COARSE_IN = 0.028, 0.55
-_LEAP, _COARSEST = 0.2, 0.3  # the same, where a coarse grid is begun instead; and how fine one is of what the view needs, for which it is, too
+# Share of the picture's pixels that would get rays in a frame, for which a coarse grid is begun instead; and how fine one is of what the view needs, for which
+# it is, too.
+_LEAP, _COARSEST = 0.2, 0.3
 _WORTH, _WORTH_IN, _WORTH_OUT = (0.45, 1.6), (0.7, 1.6), (0.45, 1.0)  # how fine a grid that is being made may be, of what the view needs; while that zooms
 _AHEAD = CELL  # pixels beside a view of which none is left out when more of it is traced
 _MOVED = 7 * CELL  # pixels that a grid has on each side of a view when it has been moved
 _FIRST_OF = 3  # of its width, that a view goes on by, lies the middle of what a grid that is being made gets first
+_TOGETHER = 4  # cells along the side of a block of which all are traced, before those of another
 _SPARE = 48  # pixels beside a view that are traced before it comes to them, and drawn where nothing but the view moves
 _FEW = 4  # stars in a pixel: of a sky that may show more all but the brightest would become a haze
 _SINGLE = 0.95  # as for pictures that are shown a little larger: stars that can be seen singly are left to the picture shown
@@ -162,9 +163,7 @@ class TurningPass:
         self._turn(known, inputs, view, made.box, target, viewport)
         if self._next is not None:
             middle = view if self._shown is None else view.going_on(self._shown[1], view.size[0] // _FIRST_OF)
-            zooms_in = view.pixel < View.of(before.camera, size).pixel * (1.0 - ZOOMS)
-            most = _MOST_IN if zooms_in and scale(known.grid, view, finer_of(plan)) > _COARSE_IN else MOST
-            self._extend_next(self._next, plan, time, view, middle, most)
+            self._extend_next(self._next, plan, time, view, middle)
         self._shown = inputs, view
         if shown is None:
             self.draw_stars(target, viewport)
@@ -274,22 +273,24 @@ class TurningPass:
         """Whether `known` lacks any of what `view` shows, or of what is just beside that or `coming`."""
         return bool(((known.grid.seen(view, _AHEAD) | known.grid.seen(coming)) & ~known.cells).any())
 
-    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View, most: float) -> None:
-        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for of `most` over its pixels, from the
-        middle of what is `coming` outwards: the rest is soon seen no more."""
+    def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View) -> None:
+        """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle of what is `coming`
+        outwards, as the rest is soon seen no more, and in blocks: what is beside new cells is looked at, too."""
         seen = known.grid.seen(view, _AHEAD)
         left = np.argwhere(seen & ~known.cells)
-        cells = _cells(view, known, most) - self._extended
+        cells = _cells(view, known) - self._extended
         if len(left) and cells > 0:
             shown = known.grid.seen(view)[tuple(left.T)]
-            inner = np.lexsort((-known.grid.ahead(coming)[tuple(left.T)], ~shown))[:cells]
+            blocks = left // _TOGETHER
+            middles = np.minimum(_TOGETHER * blocks + _TOGETHER // 2, np.array(seen.shape) - 1)
+            inner = np.lexsort((*blocks.T, -known.grid.ahead(coming)[tuple(middles.T)], ~shown))[:cells]
             inputs = known.inputs(plan, time)
             if known.prepare(inputs):
                 self._extend(known, inputs, _marked(left[inner], seen.shape))
 
     def _extend_for(self, known: KnownLight, inputs: FrameInputs, view: View, coming: View) -> None:
         """Traces what `view` shows and `known` lacks, and as much of what is beside it, and of what is `coming`, as the frame has rays for."""
-        grid, most, fresh = known.grid, _cells(view, known, MOST), np.zeros_like(known.cells)
+        grid, most, fresh = known.grid, _cells(view, known), np.zeros_like(known.cells)
         shown = grid.seen(view)
         for seen in (shown, grid.seen(view, _AHEAD), grid.seen(coming, 0 if self._next is not None else 2 * _AHEAD)):
             left = np.argwhere(seen & ~known.cells & ~fresh)
@@ -369,9 +370,9 @@ class _Made:
         return inside and not (known.grid.seen(view) & ~self.cells).any()
 
 
-def _cells(view: View, known: KnownLight, most: float) -> int:
-    """How many may get rays in a frame, `most` over its pixels."""
-    return int(most * view.size[0] * view.size[1] / known.rays_a_pixel) // CELL**2
+def _cells(view: View, known: KnownLight) -> int:
+    """How many may get rays in a frame."""
+    return int(MOST * view.size[0] * view.size[1] / known.rays_a_pixel) // CELL**2
 
 
 def _finer_of_stars(scene: Scene, view: View, shown: tuple[int, int] | None, grid: DirectionGrid) -> float:
