@@ -7,7 +7,7 @@ edges: a picture under a moving camera with several rays in the pixels at edges,
 things: ten spheres and the disk under a moving camera, against the disk alone.
 orbit: ten spheres before a camera at rest, one of them on an orbit, against all of them at rest.
 turning, zooming: a camera that only turns by half a degree a frame, or zooms in by 1 %, against one at rest; with the rays that are marched for each picture.
-zooming_out: the same, out.
+turning_up, zooming_out: the same, up and out.
 stars: a picture of half the size under a moving camera, enlarged with its stars drawn over it, against one that is only enlarged.
 """
 
@@ -131,6 +131,11 @@ def turning(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Fr
     return looking(renderer, scene, size, lambda number: {"camera.yaw_deg": 0.5 * (number - 30)})
 
 
+def turning_up(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """From below, past the hole."""
+    return looking(renderer, scene, size, lambda number: {"camera.pitch_deg": 0.5 * (number - 30)})
+
+
 def zooming(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
     """In."""
     return looking(renderer, scene, size, lambda number: {"camera.fov_deg": scene.camera.fov_deg * 0.99 ** (number + 3)})
@@ -143,7 +148,7 @@ def zooming_out(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tupl
 
 COMPARED = {
     **{"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars},
-    **{"turning": turning, "zooming": zooming, "zooming_out": zooming_out},
+    **{"turning": turning, "turning_up": turning_up, "zooming": zooming, "zooming_out": zooming_out},
 }
 
 

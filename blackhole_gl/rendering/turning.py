@@ -113,6 +113,7 @@ class TurningPass:
         self.marched = 0
         self._known: KnownLight | None = None
         self._next: KnownLight | None = None  # what is made ready to take its place
+        self._makes = False  # whether that lacks any of what is seen
         self._extended = 0  # cells, in the last frame
         self._picture: Target | None = None
         self._made: _Made | None = None
@@ -121,7 +122,7 @@ class TurningPass:
     @property
     def prepares(self) -> bool:
         """Whether another grid is being made, so that what a picture takes says little of others."""
-        return self._next is not None and self._shown is not None and self._lacks(self._next, self._shown[1]) > 0
+        return self._makes
 
     def draw(
         self,
@@ -151,6 +152,7 @@ class TurningPass:
         known = self._known_for(place_of(scene), plan, time, view, shown, before.camera)
         if known is None:
             return False
+        self._makes = self._next is not None and self._lacks(self._next, view) > 0
         inputs = known.inputs(plan, time)
         if not known.cells.any():
             known.require(inputs)
@@ -185,6 +187,7 @@ class TurningPass:
             if known is not None:
                 known.release()
         self._known = self._next = self._made = self._shown = None
+        self._makes = False
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -270,8 +273,10 @@ class TurningPass:
         return CELL**2 * int(np.count_nonzero(known.grid.seen(view) & ~known.cells))
 
     def _is_short(self, known: KnownLight, view: View, coming: View) -> bool:
-        """Whether `known` lacks any of what `view` shows, or of what is just beside that or `coming`."""
-        return bool(((known.grid.seen(view, _AHEAD) | known.grid.seen(coming)) & ~known.cells).any())
+        """Whether `known` lacks any of what `view` shows; or of what is just beside that or `coming`, unless rays are wanted for another grid, as to trace for
+        both in one frame takes longer."""
+        seen = known.grid.seen(view) if self._makes else known.grid.seen(view, _AHEAD) | known.grid.seen(coming)
+        return bool((seen & ~known.cells).any())
 
     def _extend_next(self, known: KnownLight, plan: Plan, time: float, view: View, coming: View) -> None:
         """Traces as much of what `view` shows, and of what is beside it, and `known` lacks as the frame has rays left for, from the middle of what is `coming`
@@ -279,7 +284,7 @@ class TurningPass:
         seen = known.grid.seen(view, _AHEAD)
         left = np.argwhere(seen & ~known.cells)
         cells = _cells(view, known) - self._extended
-        if len(left) and cells > 0:
+        if len(left) and cells > self._extended:
             shown = known.grid.seen(view)[tuple(left.T)]
             blocks = left // _TOGETHER
             middles = np.minimum(_TOGETHER * blocks + _TOGETHER // 2, np.array(seen.shape) - 1)
