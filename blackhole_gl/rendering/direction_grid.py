@@ -75,7 +75,7 @@ class View:
 
     def new_since(self, before: View) -> float:
         """About the share of the picture that one of `before` did not show, 0…2, where it has turned by less than half round."""
-        back, down, right = -before.look[:, 0] @ self.look
+        back, down, right = (-before.look[:, 0] @ self.look).tolist()
         ahead = max(-back, 1e-6)
         return 0.5 * (min(abs(right) / (ahead * self.half[0]), 2.0) + min(abs(down) / (ahead * self.half[1]), 2.0))
 

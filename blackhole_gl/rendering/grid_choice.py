@@ -40,6 +40,7 @@ _FRAMES_OUT, _MOST_OUT, _SOFT, _TIGHT = 70, 2.0, 0.7, 1.3
 _FRAMES_UP, _MOST_UP_DEG = 60, 20.0
 _WIDER = 1.0, math.sqrt(2.0), COARSE
 _RAYS, _SPARE, _FIRST = 1.15, 1.2, 6  # rays a pixel; frames over those that they take, as a factor, and those in which textures are made
+_MUCH = 0.01  # new of the view in each frame, from which on the finest would take half as long again as a frame at rest
 _PATIENCE = 100  # frames within which any is to be there
 _RESTS = 1e-5  # rad a frame, by which a latitude does not change
 
@@ -83,7 +84,7 @@ def wanted(grid: DirectionGrid, view: View, before: View, finer: float) -> float
         return soon if fine * soon < _SOFT else None
     if zoom < 1.0 - ZOOMS:
         return _AHEAD_IN if fine < 1.0 / _UNLIKE else None
-    in_time = (wider for wider in _WIDER if _is_in_time(finer / wider, grid, finer * fine, view, before))
+    in_time = (wider for wider in _WIDER[view.new_since(before) > _MUCH :] if _is_in_time(finer / wider, grid, finer * fine, view, before))
     if _leaves(grid, view, before):
         return next(in_time, COARSE)
     if fine > _UNLIKE:
