@@ -32,7 +32,7 @@ _WRONG_FATES = 0.01
 # A measured scene this near (see `_distance`) is the scene itself; otherwise the worse of the two nearest is believed.
 _SAME = 0.02
 
-# Measured costs are no better known than this: of marches that are so nearly as cheap as the cheapest the most accurate is taken.
+# Measured costs are no better known than this.
 _AS_CHEAP = 1.03
 
 # Steps where nothing was measured: κ = 0.2 rad and Δt₀ = 0.1 r_s are half a pixel in the default scene.
@@ -121,7 +121,7 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     if by_things:
         good.sort(key=_adapts)
     ranked = good or sorted(found, key=lambda p: p.error_px)
-    best = _most_accurate_of_those_as_cheap(ranked) if good else ranked[0]
+    best = _of_those_as_cheap(ranked) if good else ranked[0]
     rival = next((p for p in ranked if p.method.kind != best.method.kind), None)
     reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
     if by_things:
@@ -131,11 +131,14 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     return Choice(_stated(scene, best), best, rival, floor, bool(good), tuple(reasons))
 
 
-def _most_accurate_of_those_as_cheap(ranked: Sequence[Prediction]) -> Prediction:
-    """Of marches that are as cheap as the first of `ranked`; the first itself where it is a closed form."""
+def _of_those_as_cheap(ranked: Sequence[Prediction]) -> Prediction:
+    """What is taken of those that are as cheap as the first of `ranked`: the displacement on the screen, which is the least that a scene can need; any other
+    closed form as it comes; of marches the most accurate."""
     first = ranked[0]
-    alike = [p for p in ranked if p.method.integrator and _adapts(p) == _adapts(first) and p.cost <= _AS_CHEAP * first.cost]
-    return min(alike, key=lambda p: p.error_px) if first.method.integrator else first
+    alike = [p for p in ranked if p.cost <= _AS_CHEAP * first.cost]
+    if not first.method.integrator:
+        return next((p for p in alike if p.method.model == thin_lens.MODEL), first)
+    return min((p for p in alike if p.method.integrator and _adapts(p) == _adapts(first)), key=lambda p: p.error_px)
 
 
 def _adapts(found: Prediction) -> bool:

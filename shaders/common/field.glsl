@@ -161,10 +161,11 @@ float ray_end(Orbit orbit, State a, State b, float h) {
     if (orbit.bends == 0.0) return 0.0;
     float before = field_beyond(a), after = field_beyond(b);
     if (before >= 0.0) return 0.0;
-    // From where a straight way back comes to the sphere: a step that goes in at its rim and out again begins on it, where the other root is.
-    float speed = length(b.v), outwards = dot(b.x, b.v) / speed;
-    float back = outwards - sqrt(max(outwards * outwards - after, 0.0));
-    return hermite_root_near(1.0 - back / (speed * h), before, 2.0 * h * dot(a.x, a.v), after, 2.0 * h * dot(b.x, b.v));
+    float inwards = 2.0 * h * dot(a.x, a.v), outwards = 2.0 * h * dot(b.x, b.v);
+    if (inwards >= 0.0) return hermite_root(before, inwards, after, outwards);
+    // A step that goes in and out again may begin on the sphere, where the other root is: from where a straight way back comes to it.
+    float speed = length(b.v), along = dot(b.x, b.v) / speed;
+    return hermite_root_near(1.0 - (along - sqrt(max(along * along - after, 0.0))) / (speed * h), before, inwards, after, outwards);
 }
 
 // The root on the polynomial is as good as a cubic: what is left to the sphere is gone by the rates there.

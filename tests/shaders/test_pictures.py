@@ -56,7 +56,7 @@ def test_every_instance_knows_the_layer_of_its_own_picture(pictures: Pictures, t
     place = next(place for item, place in instances._places(kind)[0] if item.key == "image")
     assert instances._rows(kind, plan(scene), 0.0, FrozenMap(layers_of(scene))).reshape(4, -1)[:, place].tolist() == [0, -1, 1, 0]
     text = instances.glsl([kind])
-    assert f"uniform sampler2DArray {ARRAY};" in text and f"#define thing_globe_image(i) int(texelFetch(thing_globe_table, ivec2({place // 4}, i)" in text
+    assert f"uniform sampler2DArray {ARRAY};" in text and f"#define thing_globe_image(i) int(textureLod(thing_globe_table, (vec2({place // 4}, i)" in text
 
 
 @pytest.mark.usefixtures("known_kinds")
