@@ -58,7 +58,7 @@ class EdgePixels:
         else:
             target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
         marks = np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
-        pixels = at_edges(marks)
+        pixels = at_edges(marks, corners=inputs.plan.is_inside)
         if not inputs.plan.meetings:
             return pixels + box[:2], np.zeros(len(pixels), bool)
         beside = beside_things(marks, pixels)
@@ -95,7 +95,7 @@ class EdgePixels:
         return self._own, box
 
 
-def at_edges(marks: np.ndarray) -> np.ndarray:
+def at_edges(marks: np.ndarray, *, corners: bool = False) -> np.ndarray:
     """Column and row, int (N, 2), of the pixels of `marks` (height, width) that differ from one of the eight beside them; in order of rows.
 
     Left out are the direct picture's own edges, as its cover is smooth, and what it hides. Behind it a pixel at whose corner alone the hole or a ring begins
@@ -103,6 +103,7 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
 
     Args:
         marks: shaders/common/edge_marks.glsl, its first number in the low byte.
+        corners: whether it has several all the same, as from inside the horizon, where all that is outside becomes a belt thinner than a pixel.
     """
     if marks.size == 0:  # nothing of the picture has rays
         return np.zeros((0, 2), np.intp)
@@ -111,7 +112,7 @@ def at_edges(marks: np.ndarray) -> np.ndarray:
     flat[1:-1, 1:] = marks
     flat = flat.ravel()
     found = np.zeros(flat.size, bool)
-    at_corners = _SEEN_THROUGH_VEIL_AT_CORNERS
+    at_corners = _SEEN_THROUGH_VEIL if corners else _SEEN_THROUGH_VEIL_AT_CORNERS
     for apart, through_veil in ((1, _SEEN_THROUGH_VEIL), (width - 1, at_corners), (width, _SEEN_THROUGH_VEIL), (width + 1, at_corners)):
         first = np.flatnonzero(flat[apart:] != flat[:-apart])
         first = first[_has_ray(flat[first]) & _has_ray(flat[first + apart])]

@@ -278,6 +278,8 @@ def test_long_command_lines_run_too(tmp_path: Path, picture: Path, line: str, en
     """Views where there is no display, so that they write a picture; timings of small ones, once each, and films of a few."""
     for name in re.findall(r"(?<==)\S+\.jpg|\S+\.png", line):
         shutil.copy(picture, tmp_path / name)  # whatever the name says: what a file is, its content tells
+    for name in re.findall(r"(?<=view )\S+\.mp4", line):
+        assert run(tmp_path, "video", "--preset", "kerr", "--path", "dive", "--size", "32x18", "--fps", "1", "--seconds", "1", "--out", name).returncode == 0
     arguments = ["bench", "--size", "32x18", "--rounds", "1", "--no-euler"] if arguments_of(line)[0] == "bench" else shlex.split(line)[1:]
     if arguments_of(line)[0] == "video":
         arguments = [str(ROOT / word) if word.startswith("examples/") else word for word in arguments] + ["--size", "32x18", "--fps", "1", "--seconds", "2"]

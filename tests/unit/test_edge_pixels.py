@@ -16,12 +16,12 @@ MARKS = (
 )
 
 
-def by_pixel(marks: np.ndarray) -> list[tuple[int, int]]:
+def by_pixel(marks: np.ndarray, corners: bool = False) -> list[tuple[int, int]]:
     """The rule as it is told: a pixel with a ray that differs, in what counts for it, from one beside it that has a ray too."""
     height, width = marks.shape
 
     def differs(here: int, x: int, y: int, corner: bool) -> bool:
-        veiled = corner and EdgeMark.MET << 8 | EdgeMark.IN_FIELD or ~(EdgeMark.VEILED | 3 * EdgeMark.RING_1)
+        veiled = corner and not corners and EdgeMark.MET << 8 | EdgeMark.IN_FIELD or ~(EdgeMark.VEILED | 3 * EdgeMark.RING_1)
         beside = int(marks[y, x]) if 0 <= x < width and 0 <= y < height else NO_RAY
         return beside != NO_RAY and (beside ^ here) & (veiled if here & EdgeMark.VEILED else ~EdgeMark.VEILED) != 0
 
@@ -39,7 +39,8 @@ def test_edges_are_found_wherever_they_are(seed: int) -> None:
     patches = random.choice(MARKS, (height, width))
     few = np.where(random.random((height, width)) < 0.15, patches, random.choice((SKY, NO_RAY, SKY | EdgeMark.VEILED))).astype(np.uint16)
     for marks in (patches.astype(np.uint16), few):
-        assert [tuple(pixel) for pixel in at_edges(marks).tolist()] == by_pixel(marks)
+        for corners in (False, True):
+            assert [tuple(pixel) for pixel in at_edges(marks, corners=corners).tolist()] == by_pixel(marks, corners)
 
 
 @pytest.mark.parametrize("slope", np.linspace(-1.0, 1.0, 9))
