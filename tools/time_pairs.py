@@ -4,6 +4,7 @@
 
 glow: a picture at rest while time runs, its glow made for every second frame, against one made for each.
 edges: a picture under a moving camera with several rays in the pixels at edges, against one ray in each.
+catalogue: a picture under a moving camera before the sky of measured stars, against the invented one.
 things: ten spheres and the disk under a moving camera, against the disk alone.
 orbit: ten spheres before a camera at rest, one of them on an orbit, against all of them at rest.
 turning, zooming: a camera that only turns by half a degree a frame, or zooms in by 1 %, against one at rest; with the rays that are marched for each picture.
@@ -64,6 +65,16 @@ def stars(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Fram
         targets.render_into(window.frame, area, Drawing(turned, FRAME_S * number, area.scaled(0.5), area.size, progressive=True, passes=False))
 
     return lambda number: frame(number, with_stars, 0.0), lambda number: frame(number, without, 0.01)  # another view, or it would keep the rays
+
+
+def catalogue(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
+    """The camera tilts by half a degree a frame."""
+    other, measured, invented = Renderer(renderer.ctx), *(scene.with_values({"sky.model": sky}) for sky in ("catalogue", "procedural"))
+
+    def frame(number: int, drawn_by: Renderer, seen: Scene) -> None:
+        drawn_by.render(seen.with_values({"camera.inclination_deg": 60.0 + 0.5 * (number % 20)}), FRAME_S * number, size, progressive=True)
+
+    return lambda number: frame(number, renderer, measured), lambda number: frame(number, other, invented)
 
 
 def ten_spheres(scene: Scene, *, orbiting: bool) -> Scene:
@@ -147,7 +158,7 @@ def zooming_out(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tupl
 
 
 COMPARED = {
-    **{"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars},
+    **{"glow": glow, "edges": edges, "things": things, "orbit": orbit, "stars": stars, "catalogue": catalogue},
     **{"turning": turning, "turning_up": turning_up, "zooming": zooming, "zooming_out": zooming_out},
 }
 

@@ -11,43 +11,42 @@ from blackhole_gl.physics.disk_profile import page_thorne_flux
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
 
-SIZE = (96, 54)
 OUTER = 10.0
 # Half floats keep eleven bits: 5e-4 at worst, and three orders' sum is rounded once.
 BOUND = 1e-3
 
 
-@pytest.mark.parametrize("spin, inclination", [(0.9, 70.0), pytest.param(0.0, 80.0, marks=pytest.mark.slow)])
-def test_light_of_the_smooth_disk(renderer: Renderer, spin: float, inclination: float) -> None:
+@pytest.mark.parametrize("spin, inclination, size", [(0.9, 70.0, (96, 54)), pytest.param(0.0, 80.0, (144, 81), marks=pytest.mark.slow)])
+def test_light_of_the_smooth_disk(renderer: Renderer, spin: float, inclination: float, size: tuple[int, int]) -> None:
     scene = presets.load(
         ["kerr", "reference", "smooth"],
         {"hole.spin": spin, "camera.distance": "inf", "camera.inclination_deg": inclination, "camera.field_m": 30.0, "disk.outer_radius": OUTER,
          "disk.colour": "white", "disk.compositing": "additive", "disk.emission_strength": 0.18, "sky.enabled": False, "rays.edges": 1},
     )  # fmt: skip
-    renderer.render(scene, 0.0, SIZE)
+    renderer.render(scene, 0.0, size)
     found = renderer.radiance()[::-1, :, 0].astype(float)
-    truth, edge = light_of_the_twin(spin, inclination, scene.camera.field_m)
+    truth, edge = light_of_the_twin(spin, inclination, scene.camera.field_m, size)
     inside = (truth > 1e-3 * truth.max()) & ~edge
     off = np.abs(found - truth)[inside] / truth[inside]
     print(f"a* = {spin}, {inclination:g} degrees, {np.count_nonzero(inside)} pixels: 99 % within {np.quantile(off, 0.99):.1e}, the worst {off.max():.1e}")
     assert np.count_nonzero(inside) > 1000 and np.quantile(off, 0.99) <= BOUND
-    listed = listed_rays.intensities(scene, listed_rays.trace_by_shader(renderer, scene, listed_rays.pixel_rays(scene, SIZE).reshape(-1, 2)))
-    told = np.nansum(listed, axis=1).reshape(SIZE[::-1])[::-1]
+    listed = listed_rays.intensities(scene, listed_rays.trace_by_shader(renderer, scene, listed_rays.pixel_rays(scene, size).reshape(-1, 2)))
+    told = np.nansum(listed, axis=1).reshape(size[::-1])[::-1]
     assert np.quantile(np.abs(found - told)[inside] / told[inside], 0.99) <= BOUND, "listed rays tell the same"
 
 
-def light_of_the_twin(spin: float, inclination: float, field_m: float) -> tuple[np.ndarray, np.ndarray]:
+def light_of_the_twin(spin: float, inclination: float, field_m: float, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
     """Light of each pixel, g⁴ F over the largest F, summed over three crossings, bottom row first; and where one lies at an edge of the disk."""
-    pixel = field_m / SIZE[1]
-    alpha, beta = np.meshgrid((np.arange(SIZE[0]) + 0.5 - 0.5 * SIZE[0]) * pixel, (np.arange(SIZE[1]) + 0.5 - 0.5 * SIZE[1]) * pixel)
+    pixel = field_m / size[1]
+    alpha, beta = np.meshgrid((np.arange(size[0]) + 0.5 - 0.5 * size[0]) * pixel, (np.arange(size[1]) + 0.5 - 0.5 * size[1]) * pixel)
     rays = np.stack([alpha.ravel(), beta.ravel()], axis=-1)
     met = reference.trace("kerr", spin=spin, distance=np.inf, inclination_deg=inclination, screen=rays, orders=3)
     r, inner = met.equatorial.r, float(relativity.isco_radius(spin))
     shines = (r > inner) & (r < OUTER)
     radii = np.linspace(inner, OUTER, 200_001)
     flux = np.where(shines, page_thorne_flux(np.where(shines, r, 2.0 * inner), spin), 0.0) / page_thorne_flux(radii, spin).max()
-    light = np.nansum(flux * np.where(shines, met.g, 0.0) ** 4, axis=1).reshape(SIZE[::-1])
-    edges = [partly_covered(r[:, order].reshape(SIZE[::-1]), inner) for order in range(3)]
+    light = np.nansum(flux * np.where(shines, met.g, 0.0) ** 4, axis=1).reshape(size[::-1])
+    edges = [partly_covered(r[:, order].reshape(size[::-1]), inner) for order in range(3)]
     return light, np.any(edges, axis=0)
 
 
