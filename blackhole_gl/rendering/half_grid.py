@@ -22,7 +22,7 @@ from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .reach import Reached
 from .refinement import tolerances
-from .target import Target
+from .target import Target, plain_texture
 
 # Of a cell and the eight about it so many have to be traced: along lines, such as outlines of things, rays of their own are cheaper.
 _TOGETHER = 6
@@ -221,24 +221,18 @@ class HalfGrid:
         cells = -(-size[0] // HALF_STEP), -(-size[1] // HALF_STEP)
         nodes = cells[0] + 3 * HALF_MARGIN, cells[1] + 3 * HALF_MARGIN
         depth, classes = self._ctx.depth_texture(nodes), self._ctx.depth_texture(size)
-        rays = Target.of(self._ctx, [self._texture(nodes, 4, "f4", moderngl.LINEAR) for _ in range(count)], depth)
+        rays = Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", moderngl.LINEAR) for _ in range(count)], depth)
         return _Made(
             (size, count),
-            chosen=self._texture(coarse, 1, "f1", moderngl.NEAREST),
+            chosen=plain_texture(self._ctx, coarse, 1, "f1"),
             rays=rays,
             without_things=self._ctx.framebuffer(rays.textures[:1], depth),
             depth=depth,
             marks=self._ctx.framebuffer([], depth),
-            cells=Target.of(self._ctx, [self._texture(cells, 1, "f1", moderngl.NEAREST)]),
+            cells=Target.of(self._ctx, [plain_texture(self._ctx, cells, 1, "f1")]),
             classes=classes,
             sorted=self._ctx.framebuffer([], classes),
         )
-
-    def _texture(self, size: tuple[int, int], components: int, dtype: str, filtered: int) -> moderngl.Texture:
-        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
-        texture.filter = filtered, filtered
-        texture.repeat_x = texture.repeat_y = False
-        return texture
 
 
 def narrow_balls(inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], bodies: Bool[np.ndarray, " balls"]) -> int:

@@ -17,7 +17,7 @@ from .inputs import FrameInputs
 from .programs import RAY_SLOTS, Programs, chosen
 from .squares import Squares
 from .tables import Tables
-from .target import Target
+from .target import Target, plain_texture
 
 MOST_BALLS = 24
 """Balls that rays are held against; more are put together in larger ones."""
@@ -92,8 +92,8 @@ class _Level:
         nodes = cells[0] + 1, cells[1] + 1
         depth = ctx.depth_texture(nodes)
         return cls(
-            nodes=Target.of(ctx, [_texture(ctx, nodes, "u4", 2)], depth),
-            cells=Target.of(ctx, [_texture(ctx, cells, "f1"), _texture(ctx, cells, "u4")]),
+            nodes=Target.of(ctx, [plain_texture(ctx, nodes, 2, "u4")], depth),
+            cells=Target.of(ctx, [plain_texture(ctx, cells, 1, "f1"), plain_texture(ctx, cells, 1, "u4")]),
             depth=depth,
             marks=ctx.framebuffer([], depth),
         )
@@ -230,13 +230,6 @@ def steps(height: int) -> list[int]:
     while found[-1] > REFINE_STEP:
         found.append(found[-1] // 2)
     return found
-
-
-def _texture(ctx: moderngl.Context, size: tuple[int, int], dtype: str, components: int = 1) -> moderngl.Texture:
-    texture = ctx.texture(size, components, dtype=dtype, alignment=1)
-    texture.filter = moderngl.NEAREST, moderngl.NEAREST
-    texture.repeat_x = texture.repeat_y = False
-    return texture
 
 
 def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:

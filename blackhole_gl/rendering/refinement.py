@@ -17,7 +17,7 @@ from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .squares import Squares
-from .target import Target
+from .target import Target, plain_texture
 
 FILLED = {"CELLS_FILLED": 1}
 """The switch of the program that knows of cells which one thing fills."""
@@ -234,26 +234,20 @@ class CoarseGrid:
     def _make(self, size: tuple[int, int], count: int) -> _Made:
         cells = -(-size[0] // REFINE_STEP), -(-size[1] // REFINE_STEP)
         nodes = cells[0] + 1 + 2 * GRID_MARGIN, cells[1] + 1 + 2 * GRID_MARGIN
-        kinds = self._texture(nodes, 1, "u4")
-        node_textures = {name: self._texture(nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
+        kinds = plain_texture(self._ctx, nodes, 1, "u4")
+        node_textures = {name: plain_texture(self._ctx, nodes, 4, dtype) for name, dtype in _NODES[: _NODES_BY_TARGETS[count]]}
         for texture in node_textures.values():
             texture.filter = moderngl.LINEAR, moderngl.LINEAR
         classes = self._ctx.depth_texture(size)
         return _Made(
             (size, count),
-            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)]),
+            rays=Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4") for _ in range(count)]),
             nodes=Target.of(self._ctx, [kinds, *node_textures.values()]),
             node_textures=node_textures,
-            cells=Target.of(self._ctx, [self._texture(cells, 1, "u2"), self._texture(cells, 1, "f1")]),
+            cells=Target.of(self._ctx, [plain_texture(self._ctx, cells, 1, "u2"), plain_texture(self._ctx, cells, 1, "f1")]),
             sorted=self._ctx.framebuffer([], classes),
             classes=classes,
         )
-
-    def _texture(self, size: tuple[int, int], components: int, dtype: str) -> moderngl.Texture:
-        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
-        texture.filter = moderngl.NEAREST, moderngl.NEAREST
-        texture.repeat_x = texture.repeat_y = False
-        return texture
 
 
 def _beyond_disk(plan: Plan) -> float:

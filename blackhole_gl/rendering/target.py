@@ -40,3 +40,11 @@ class Target:
         for texture in self.textures:
             texture.release()
         self.frame.release()
+
+
+def plain_texture(ctx: moderngl.Context, size: tuple[int, int], components: int, dtype: str, filtered: int = moderngl.NEAREST) -> moderngl.Texture:
+    """One that does not repeat and has no levels, of `components` numbers of the `dtype` that moderngl names, in rows without gaps."""
+    texture = ctx.texture(size, components, dtype=dtype, alignment=1)
+    texture.filter = filtered, filtered
+    texture.repeat_x = texture.repeat_y = False
+    return texture

@@ -18,7 +18,7 @@ from .classes import THINGS, Where, drawn
 from .inputs import FrameInputs
 from .programs import Draw, Programs
 from .reach import Reached
-from .target import Target
+from .target import Target, plain_texture
 
 _MARKED = Where(">", 0.5)  # by shaders/refine_marks.frag
 
@@ -141,15 +141,9 @@ class ThingsGrid:
         depth = self._ctx.depth_texture(nodes)
         return _Made(
             (size, count),
-            rays=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(count)], depth),
-            bends=Target.of(self._ctx, [self._texture(nodes, 4, "f4") for _ in range(2)], depth),
-            solid=Target.of(self._ctx, [self._texture(nodes, 1, "f1")], depth),
+            rays=Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", moderngl.LINEAR) for _ in range(count)], depth),
+            bends=Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", moderngl.LINEAR) for _ in range(2)], depth),
+            solid=Target.of(self._ctx, [plain_texture(self._ctx, nodes, 1, "f1", moderngl.LINEAR)], depth),
             depth=depth,
             marks=self._ctx.framebuffer([], depth),
         )
-
-    def _texture(self, size: tuple[int, int], components: int, dtype: str) -> moderngl.Texture:
-        texture = self._ctx.texture(size, components, dtype=dtype, alignment=1)
-        texture.filter = moderngl.LINEAR, moderngl.LINEAR
-        texture.repeat_x = texture.repeat_y = False
-        return texture
