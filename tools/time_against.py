@@ -4,7 +4,7 @@
         [--scene kerr|kerr_0998|table|marched …]
 
 All four scenes unless some are named. Moving frames are those of a camera that turns by half a degree a frame in both angles.
-Still ones are the window's while only time runs, in which a glow may stand for two frames; with `--every-glow` each has its own.
+Still ones are the window's while only time runs, in which a glow may stand for three frames; with `--every-glow` each has its own.
 The commit is checked out into a folder of its own, and goes again. Each process has one thread of llvmpipe's (`LP_NUM_THREADS=1`).
 """
 

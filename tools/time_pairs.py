@@ -2,7 +2,7 @@
 
     LP_NUM_THREADS=1 python tools/time_pairs.py [--size 1280x720] [--rounds 40] [--preset kerr] [--set rays.lensing=false] [--only edges]
 
-glow: a picture at rest while time runs, its glow made for every second frame, against one made for each.
+glow: a picture at rest while time runs, its glow made for every third frame, against one made for each.
 edges: a picture under a moving camera with several rays in the pixels at edges, against one ray in each.
 catalogue: a picture under a moving camera before the sky of measured stars, against the invented one.
 things: ten spheres and the disk under a moving camera, against the disk alone.
@@ -26,6 +26,7 @@ from blackhole_gl.app.targets import Drawing, Targets
 from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.frame_report import FrameReport
+from blackhole_gl.rendering.post import GLOW_SERVES
 from blackhole_gl.rendering.target import Target
 from blackhole_gl.scene import Scene, presets
 
@@ -35,11 +36,11 @@ Frames = Callable[[int], FrameReport | None]  # draws the frames of a round; may
 
 
 def glow(renderer: Renderer, scene: Scene, size: tuple[int, int]) -> tuple[Frames, Frames]:
-    """Two frames of a running clock, as one with a new glow and one without make a pair."""
+    """As many frames of a clock that runs as fast as forty of them show it as a glow may serve, one of which it is made for."""
 
     def frames(number: int, *, lasts: bool) -> None:
-        for k in range(2):
-            renderer.render(scene, FRAME_S * scene.playback.rate * (2 * number + k), size, glow_may_last=lasts)
+        for k in range(GLOW_SERVES):
+            renderer.render(scene, 0.025 * scene.playback.rate * (GLOW_SERVES * number + k), size, glow_may_last=lasts)
 
     return lambda number: frames(number, lasts=True), lambda number: frames(number, lasts=False)
 

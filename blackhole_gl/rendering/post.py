@@ -33,6 +33,9 @@ GLOW_REACH = 5 * GLOW_GRID
 GLOW_LASTS = 0.25
 """Scene time in r_s/c for which a glow may stand still: the picture is then off by 0.01 grey levels in the mean, and nowhere by more than 4."""
 
+GLOW_SERVES = 3
+"""Pictures one after the other that may have the same glow."""
+
 _ANYWHERE = 4.0  # beyond all places in a texture that goes round
 
 TONE_TABLE = {"TONE_COLUMN_BITS": 10, "TONE_ROWS": 48}
@@ -88,6 +91,7 @@ class PostPass:
         self.samplers: dict[str, moderngl.Texture] = {}
         self.glow_window = 1.0, 1.0, 0.0, 0.0
         self._lasting: FrameInputs | None = None  # the frame that the glow was made of, where the next one may have it too
+        self._served = 0  # pictures that have had it
 
     def draw(
         self,
@@ -101,7 +105,7 @@ class PostPass:
         """Makes `radiance` (RGBA16F) the picture in the `viewport` (x, y, width, height) of `target`.
 
         Args:
-            glow_may_last: whether the glow may be that of the last frame, if this one differs from it by little time alone; never that of one before.
+            glow_may_last: whether the glow may be that of the last frame, or of the one before it, if this one differs from that by little time alone.
         """
         post = inputs.plan.scene.post
         if post.beam:
@@ -232,10 +236,10 @@ class PostPass:
         return self._tone.texture
 
     def _glow(self, inputs: FrameInputs, radiance: moderngl.Texture, *, may_last: bool) -> moderngl.Texture:
-        if may_last and self._lasting is not None and _lasts(self._lasting, inputs):
-            self._lasting = None
+        if may_last and self._lasting is not None and self._served < GLOW_SERVES and _lasts(self._lasting, inputs):
+            self._served += 1
             return (self._up or self._down)[-1].texture
-        self._lasting = inputs if may_last else None
+        self._lasting, self._served = (inputs, 1) if may_last else (None, 0)
         return self._bloom(inputs, radiance)
 
     def _bloom(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
