@@ -13,7 +13,7 @@ import time as clock
 from collections import defaultdict
 from functools import partial
 
-from blackhole_gl.rendering import frame, programs
+from blackhole_gl.rendering import draw, frame, programs
 from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.scene import presets
 
@@ -28,8 +28,8 @@ class Profile:
         self._path: dict[int, str] = {}
         self.times: dict[str, list[tuple[float, float]]] = defaultdict(list)
         self._name_programs(renderer.programs)
-        plain = programs.Draw.draw
-        programs.Draw.draw = lambda prepared: self.timed(self._path.get(prepared.serial, "?"), lambda: plain(prepared))
+        plain = draw.Draw.draw
+        draw.Draw.draw = lambda prepared: self.timed(self._path.get(prepared.serial, "?"), lambda: plain(prepared))
 
     def _name_programs(self, kept: programs.Programs) -> None:
         plain = kept.get

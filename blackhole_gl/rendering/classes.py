@@ -11,7 +11,7 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..planning import Plan
-from .programs import Draw
+from .draw import Draw
 
 
 @dataclass(frozen=True)

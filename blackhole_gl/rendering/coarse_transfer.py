@@ -13,10 +13,11 @@ from ..scene import FrozenMap
 from .boxes import Box
 from .classes import EVERYWHERE, Where, drawn
 from .coarse_targets import BETWEEN, OWN, CoarseTargets, named
+from .draw import Draw, Samplers
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .kept_samples import MOST_SAMPLES, KeptSamples, can_keep
-from .programs import Draw, Programs, Samplers
+from .programs import Programs
 from .ray_lists import RayList
 from .target import Target
 from .transfer import changes, stretches

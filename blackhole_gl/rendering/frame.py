@@ -24,10 +24,11 @@ from .inputs import FrameInputs
 from .last_picture import LastPicture
 from .metering import Exposure
 from .post import PostPass, keeps_stars
-from .programs import Programs, Unready, chosen
+from .programs import Programs, Unready
 from .shading import ShadePass
 from .star_layer import StarLayer
 from .stills import TILE, Stills
+from .structure import chosen
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile

@@ -18,8 +18,9 @@ from ..planning import HALF_MARGIN, HALF_STEP, REFINE_STEP
 from ..shapes import Bool, Float, Int
 from .boxes import bands_of
 from .classes import MATTER, OPEN_THINGS, OWN_RAYS, Where, drawn
+from .draw import Draw
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import Programs
 from .reach import Reached
 from .refinement import tolerances
 from .target import Target, plain_texture

@@ -18,14 +18,16 @@ from ..planning import REACH_STEP, REFINE_STEP, Plan
 from . import half_grid, hit_texels, reach, refinement
 from .boxes import Box
 from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where
+from .draw import Draw
 from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instance_numbers import Number
 from .instances import InstanceTables
-from .programs import RAY_SLOTS, Draw, Programs, chosen
+from .programs import Programs
 from .ray_blocks import FreshBlocks, RayBlocks
 from .squares import Squares
+from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target
 from .things_grid import ThingsGrid

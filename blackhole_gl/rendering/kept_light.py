@@ -7,7 +7,7 @@ from dataclasses import replace
 from ..planning import Plan
 from . import instances, transfer
 from .inputs import FrameInputs
-from .programs import chosen
+from .structure import chosen
 
 
 def stands(plan: Plan) -> bool:

@@ -14,7 +14,7 @@ from ..planning import Plan
 from ..scene import met
 from ..shapes import Float, Int
 from . import instances
-from .programs import Draw, Samplers
+from .draw import Draw, Samplers
 from .ray_lists import WIDE, RayList, numbers_of, rows_of
 from .target import Target
 

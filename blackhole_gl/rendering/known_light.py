@@ -14,11 +14,12 @@ from ..shapes import Bool, Int
 from .boxes import Box, boxes_of
 from .classes import MATTER, NO_THINGS
 from .direction_grid import CELL, DirectionGrid, View
+from .draw import Draw, Samplers
 from .edges import EdgeRays, Motion
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .post import TONE_TABLE
-from .programs import Draw, Programs, Samplers
+from .programs import Programs
 from .shading import SKY_BEHIND, ShadePass
 from .squares import Squares
 from .star_layer import with_stars

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import moderngl
 
-from .programs import Draw
+from .draw import Draw
 from .target import Target
 
 

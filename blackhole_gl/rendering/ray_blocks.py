@@ -8,7 +8,7 @@ import moderngl
 import numpy as np
 
 from ..shapes import Float
-from .programs import Draw
+from .draw import Draw
 from .squares import Squares
 
 _SIDE_BY_SIDE = 3, 3  # any; no power of two, as maps at edges have none: llvmpipe compiles a program for each kind of texture that it reads

@@ -14,8 +14,9 @@ from ..scene import met
 from ..shapes import Bool, Float, Int
 from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
-from .programs import RAY_SLOTS, Programs, chosen
+from .programs import Programs
 from .squares import Squares
+from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target, plain_texture
 

@@ -20,7 +20,8 @@ from ..shapes import Bool, Float, Int
 from .hit_map import HitMap
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
-from .programs import RAY_SLOTS, Programs, chosen
+from .programs import Programs
+from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target
 

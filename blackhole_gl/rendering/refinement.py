@@ -13,9 +13,10 @@ from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
 from .boxes import Box, bands_of
 from .classes import OPEN_THINGS, OWN_RAYS, Where, drawn
+from .draw import Draw
 from .hit_texels import textures
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import Programs
 from .squares import Squares
 from .target import Target, plain_texture
 

@@ -10,13 +10,15 @@ import numpy as np
 from .boxes import Box, box_of, joined
 from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
 from .coarse_transfer import CoarseTransfer, MediaApart
+from .draw import Draw, Samplers
 from .hit_map import HitMap
 from .inputs import FrameInputs
 from .overlays import Overlays
 from .post import TONE_TABLE
-from .programs import RAY_SLOTS, SHADE_SLOTS, Draw, Programs, Samplers, chosen
+from .programs import Programs
 from .sorting import PixelSorting, Sorted
 from .squares import Squares
+from .structure import RAY_SLOTS, SHADE_SLOTS, chosen
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile

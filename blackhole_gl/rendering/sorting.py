@@ -8,9 +8,10 @@ import moderngl
 
 from ..glsl.declared import PixelClass
 from ..scene import Scene
+from .draw import Draw
 from .hit_map import HitMap
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import Programs
 from .squares import Squares
 from .target import Target
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from .programs import Draw, Samplers
+from .draw import Draw, Samplers
 from .target import Target
 
 _ROW = 256  # pixels in a row of the list. About 500 stars are in the pixels of a whole picture.

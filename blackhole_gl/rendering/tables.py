@@ -13,8 +13,8 @@ from ..scene import Scene
 from ..scene.catalogue import CatalogueError, PlugIn
 from ..scene.tables import Table
 from . import mip_levels
+from .draw import Draw, Samplers
 from .pictures import Pictures
-from .programs import Draw, Samplers
 
 RAY_UNIT = 7
 """The first texture unit of what rays are traced with, above those of all other samplers."""

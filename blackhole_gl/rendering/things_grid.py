@@ -15,8 +15,9 @@ from ..planning import GRID_MARGIN, REFINE_STEP
 from . import hit_texels
 from .boxes import Box
 from .classes import THINGS, Where, drawn
+from .draw import Draw
 from .inputs import FrameInputs
-from .programs import Draw, Programs
+from .programs import Programs
 from .reach import Reached
 from .target import Target, plain_texture
 

@@ -12,8 +12,8 @@ from ..scene import met
 from ..shapes import Float
 from . import instances
 from .classes import Where, drawn
+from .draw import Draw
 from .hit_map import HitMap
-from .programs import Draw
 
 
 class TransferPass:

@@ -28,8 +28,9 @@ from .grid_choice import BESIDE, COARSE, MOST, ZOOMS, finer_of, is_late, rise_de
 from .inputs import FrameInputs
 from .known_light import KnownLight
 from .post import PostPass
-from .programs import Programs, chosen
+from .programs import Programs
 from .star_layer import StarLayer
+from .structure import chosen
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile

@@ -1,0 +1,127 @@
+"""A compiled program, and what it draws by one frame's inputs: the whole of its target, boxes or squares of it, a mesh or points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import moderngl
+
+from .boxes import Box
+from .inputs import FrameInputs, UniformBuffers
+from .squares import SquareBuffer, Squares
+
+Samplers = Mapping[str, moderngl.Texture | moderngl.TextureArray]
+"""Sampler's name → texture."""
+
+
+@dataclass(frozen=True, eq=False)
+class Compiled:
+    """A compiled program with the triangle that covers its target, and squares of it.
+
+    Attributes:
+        serial: a number that no other program of this process has, for the keys of what was drawn by it.
+        squares: points at what the buffer of squares holds.
+    """
+
+    serial: int
+    triangle: moderngl.VertexArray
+    squares: moderngl.VertexArray
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """Its samplers, loose uniforms and blocks: looking a name up in the program walks through all of them."""
+        return frozenset(self.program)
+
+    @cached_property
+    def values(self) -> dict[str, object]:
+        """What its samplers and loose uniforms were last set to: to set one takes a hundred times as long as to compare."""
+        return {}
+
+    @property
+    def program(self) -> moderngl.Program:
+        """The program, which takes samplers and loose uniforms."""
+        return self.triangle.program
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        program = self.program  # which a released triangle no longer knows
+        self.triangle.release()
+        self.squares.release()
+        program.release()
+
+
+@dataclass(frozen=True, eq=False)
+class Draw:
+    """A program made ready for one frame's inputs.
+
+    Attributes:
+        serial: of its program.
+        inputs: what its uniform blocks hold when it draws.
+    """
+
+    compiled: Compiled
+    inputs: FrameInputs
+    _buffers: UniformBuffers
+    _squares: SquareBuffer
+
+    @property
+    def serial(self) -> int:
+        """That of the program."""
+        return self.compiled.serial
+
+    @property
+    def program(self) -> moderngl.Program:
+        """The program, which takes samplers and loose uniforms."""
+        return self.compiled.program
+
+    def takes(self, name: str) -> bool:
+        """Whether the program has a sampler or a loose uniform of that name."""
+        return name in self.compiled.names
+
+    def sample(self, samplers: Samplers, first: int = 0) -> None:
+        """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
+        used = [name for name in samplers if name in self.compiled.names]
+        for unit, name in enumerate(used, first):
+            samplers[name].use(unit)
+            self._give(name, unit)
+
+    def set(self, **uniforms: object) -> None:
+        """Sets loose uniforms by name."""
+        for name, value in uniforms.items():
+            self._give(name, value)
+
+    def _give(self, name: str, value: object) -> None:
+        held = self.compiled.values
+        if name not in held or held[name] != value:
+            self.program[name] = value
+            held[name] = value
+
+    def draw(self) -> None:
+        """Draws the triangle that covers the bound target."""
+        self._buffers.bind(self.inputs, self.compiled.names)
+        self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
+
+    def draw_boxes(self, boxes: Iterable[Box]) -> None:
+        """Draws `boxes` of the bound target alone, by its scissor."""
+        ctx = self.compiled.triangle.ctx
+        for box in boxes:
+            ctx.scissor = box
+            self.draw()
+        ctx.scissor = None
+
+    def draw_squares(self, squares: Squares) -> None:
+        """Draws `squares` of the bound target alone."""
+        self._buffers.bind(self.inputs, self.compiled.names)
+        self._squares.draw(self.compiled.squares, squares)
+
+    def draw_mesh(self, columns: int, rows: int) -> None:
+        """Draws a mesh, by a program whose vertex shader places the two triangles of each of its quads."""
+        self._buffers.bind(self.inputs, self.compiled.names)
+        self.compiled.triangle.render(moderngl.TRIANGLES, vertices=6 * columns * rows)
+
+    def draw_points(self, count: int) -> None:
+        """Draws `count` points, by a program whose vertex shader places them."""
+        self._buffers.bind(self.inputs, self.compiled.names)
+        self.compiled.triangle.render(moderngl.POINTS, vertices=count)
