@@ -22,7 +22,7 @@ from blackhole_gl.measure.scenes import ChartScene
 from blackhole_gl.output.files import write_whole
 from blackhole_gl.output.progress import Progress
 from blackhole_gl.physics.space_time import is_field
-from blackhole_gl.planning import choice
+from blackhole_gl.planning import nearest
 from blackhole_gl.planning.measured import COLUMNS, Measured
 from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.rendering.frame import Renderer
@@ -87,7 +87,7 @@ def _row(renderer: Renderer, item: ChartScene, method: Combination, setting: flo
         direction_median=errors.direction_median, direction_99=errors.direction_99, direction_worst=errors.direction_worst,
         crossing_r_99=errors.crossing_r_99, g_99=errors.g_99, wrong_fates=errors.wrong_fates, evaluations=float(np.mean(found.evaluations)),
         cost_flat_ratio=min(taken) / min(yard), step_tolerance=steps["tolerance"], refined=0, cost_unrefined=math.nan,
-        field=choice.field_text(item.scene),
+        field=nearest.field_text(item.scene),
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from blackhole_gl import planning
 from blackhole_gl.measure.methods import Combination
 from blackhole_gl.measure.scenes import ChartScene, chart_scenes
 from blackhole_gl.output.files import write_whole
-from blackhole_gl.planning import choice
+from blackhole_gl.planning import choice, nearest
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import Scene, presets
 from studies import critical, lens_by_distance, page, pictures, sizes, table
@@ -57,7 +57,7 @@ def make(
     progress(0.99, "pictures and page")
     if plan_table is not None:
         table.write_contract(plan_table, by_work(rows), where)
-        choice.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
+        nearest.measurements.cache_clear()  # what is marked is what the new table makes the plan choose
         planning.forget_measurements()
     chosen = plan_choices(rows, scenes)
     outside = out / "data" / _OUTSIDE

@@ -6,17 +6,16 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 from ..physics import projection
 from ..physics.space_time import is_field, is_inside, ray_model
-from ..resources import assets_dir
 from ..scene import Rays, Scene, catalogue, met
 from ..scene.schema import number_of
-from . import thin_lens
-from .measured import Measured, Method, read
+from . import nearest, thin_lens
+from .measured import Measured, Method
 
 AUTO = "auto"
 
@@ -28,9 +27,6 @@ REFINED_SIZE, REFINED_TOLERANCE = (1280, 720), 0.5
 
 # A method may end no more than 1 % of the rays wrongly: the tolerance speaks of 99 % of the pixels.
 _WRONG_FATES = 0.01
-
-# A measured scene this near (see `_distance`) is the scene itself; otherwise the worse of the two nearest is believed.
-_SAME = 0.02
 
 # Measured costs are no better known than this.
 _AS_CHEAP = 1.03
@@ -162,14 +158,14 @@ def is_open(scene: Scene) -> bool:
 def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
     # A stronger field asks for shorter steps; a control that judges its steps finds them.
-    any_control, in_px = not is_field(scene) or _is_as_measured(scene), _pixels(scene)
-    for method, rows in _candidates(_nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
+    any_control, in_px = not is_field(scene) or nearest.is_as_measured(scene), _pixels(scene)
+    for method, rows in _candidates(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
         if not any_control and not method.step_tolerance:
             continue
         yield Prediction(method, max(in_px(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
     if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
         # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
-        rows = tuple(row for row in _measured_in(_nearest_scenes(scene)) if row.model == thin_lens.MODEL)
+        rows = tuple(row for row in _measured_in(nearest.nearest_scenes(scene)) if row.model == thin_lens.MODEL)
         yield from (Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
 
 
@@ -193,25 +189,25 @@ def refinement(scene: Scene) -> Refinement | None:
     """What to expect of refined hit maps in `scene`, which leaves nothing open; None where its method was not measured with them."""
     if _not_measured(scene):
         return None
-    near = _nearest_scenes(scene)
+    near = nearest.nearest_scenes(scene)
     rows = _rows_by_method(near).get(_stated_method(scene), {})
     if len(rows) < 2 * len(near):
         return None
-    nearest = rows[near[0], True]
+    likest = rows[near[0], True]
     error = max(_refined_error_px(scene, rows[name, False], rows[name, True]) for name in near)
     if any(rows[name, True].wrong_fates > _WRONG_FATES for name in near):
         error = math.inf
     # Interpolation's error goes as the second derivative, which falls as the square of the distance to the critical curve: pixels with rays
     # of their own grow as 1/√tolerance. They are taken for all of the cost but a flat frame's: rather too much than too little.
     more = max(1.0, math.sqrt(REFINED_TOLERANCE / scene.rays.tolerance))
-    return Refinement(error, 1.0 + (nearest.cost_flat_ratio - 1.0) * more, nearest.cost_unrefined)
+    return Refinement(error, 1.0 + (likest.cost_flat_ratio - 1.0) * more, likest.cost_unrefined)
 
 
 def stated_error_px(scene: Scene) -> float:
     """What the chart lets expect of the method of `scene`, which leaves nothing open, in pixels of a picture 1080 high; NaN where it was not measured."""
     if not scene.rays.lensing or _not_measured(scene):
         return math.nan
-    near = _nearest_scenes(scene)
+    near = nearest.nearest_scenes(scene)
     rows = _rows_by_method(near).get(_stated_method(scene), {})
     in_px = _pixels(scene)
     found = [in_px(row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
@@ -268,34 +264,27 @@ def _pixels(scene: Scene, fov_deg: float | None = None, distance: float | None =
     return in_px
 
 
-@lru_cache(maxsize=1)
-def measurements() -> Mapping[str, Sequence[Measured]]:
-    """The rows of the chart's tables, of holes and of fields, by the scene they were measured in; empty where there are none."""
-    paths = (assets_dir() / name for name in ("measurements.csv", "measurements_fields.csv"))
-    models = catalogue.plug_ins("ray_model")
-    return {name: rows for path in paths if path.is_file() for name, rows in read(path, models).items()}
-
-
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
-    for kept in (_nearest_scenes, _measured_fields, _candidates, _rows_by_method, choose, refinement):
+    nearest.forget()
+    for kept in (_candidates, _rows_by_method, choose, refinement):
         kept.cache_clear()
 
 
 def _measured_in(scenes: tuple[str, ...]) -> Iterator[Measured]:
     for name in scenes:
-        yield from measurements()[name]
+        yield from nearest.measurements()[name]
 
 
 def _not_measured(scene: Scene) -> str:
     """Why the chart says nothing of `scene`; empty when it does."""
     if is_field(scene):
-        return "" if _nearest_scenes(scene) else "a field of which nothing was measured: plain steps"
+        return "" if nearest.nearest_scenes(scene) else "a field of which nothing was measured: plain steps"
     if scene.hole.gravity_strength != 1.0 or scene.hole.horizon_size != 1.0:
         return "artistic gravity has no truth to be measured against: the marched Schwarzschild model with plain steps"
     if is_inside(scene):
         return f"from inside the horizon: the model that leads through it; {_INSIDE_INTEGRATOR} with κ = {_INSIDE_ANGLE} errs by less than half a pixel there"
-    return "" if _nearest_scenes(scene) else "no measurements are stored: plain steps"
+    return "" if nearest.nearest_scenes(scene) else "no measurements are stored: plain steps"
 
 
 def _plainly(scene: Scene) -> Scene:
@@ -341,65 +330,6 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
         and (not row.integrator or rays.step_control in (AUTO, row.step_control))
         and (not row.integrator or stated_step in (0.0, step))
     )
-
-
-@lru_cache(maxsize=64)
-def _nearest_scenes(scene: Scene) -> tuple[str, ...]:
-    """The measured scene that is `scene`, or the two that are most like it, the likest first."""
-    camera = scene.camera
-    here = _likeness(scene.hole.spin, camera.distance, camera.inclination_deg, math.degrees(projection.view_angle(camera)))
-    spins = scene.hole.spin != 0.0
-    apart = sorted((_distance(here, spins, rows[0]), name) for name, rows in _alike(scene))
-    if not apart:
-        return ()
-    return (apart[0][1],) if apart[0][0] <= _SAME else tuple(name for _, name in apart[:2])
-
-
-def _alike(scene: Scene) -> Iterator[tuple[str, Sequence[Measured]]]:
-    """The measured scenes of the same field as `scene`, or of holes from outside where it has none: their names and rows.
-
-    A field that was not measured is like the one of its kind that is as it comes.
-    """
-    models = catalogue.plug_ins("ray_model")
-    field = (field_text(scene) if _is_as_measured(scene) else "") if is_field(scene) else None
-    for name, rows in measurements().items():
-        row = rows[0]
-        of_hole = not models[row.model].traits.field and not row.from_inside
-        if of_hole if field is None else (row.model, row.field) == (scene.rays.model, field):
-            yield name, rows
-
-
-def _is_as_measured(scene: Scene) -> bool:
-    """Whether the field of `scene` was measured with the parameters that it has there."""
-    return (scene.rays.model, field_text(scene)) in _measured_fields()
-
-
-@lru_cache(maxsize=1)
-def _measured_fields() -> frozenset[tuple[str, str]]:
-    return frozenset((rows[0].model, rows[0].field) for rows in measurements().values())
-
-
-def field_text(scene: Scene) -> str:
-    """The parameters of the field of `scene` that are not as they come, as the table names them: ``refraction.size=5.0;…``; empty where all are."""
-    known = {**ray_model(scene).parameters, **{key: scene.field(key) for key in ("rays.field_radius", "rays.field_way")}}
-    changed = {key.removeprefix("rays."): scene.get(key) for key, item in known.items() if scene.get(key) != item.default}
-    return ";".join(f"{key}={value}" for key, value in sorted(changed.items()))
-
-
-def _distance(here: tuple[float, ...], spins: bool, row: Measured) -> float:
-    """How unlike a measured scene is to that with the likeness `here`, whose hole `spins` or not.
-
-    In spin, in how large the hole is in the picture, in how deep the camera sits, in inclination.
-    """
-    # A measured hole that spins says little of one that does not, and the other way round.
-    kind = 1.0 if spins != (row.spin != 0.0) else 0.0
-    return kind + math.dist(here, _likeness(row.spin, row.distance, row.inclination_deg, row.fov_deg))
-
-
-@lru_cache(maxsize=512)
-def _likeness(spin: float, distance: float, inclination_deg: float, fov_deg: float) -> tuple[float, float, float, float]:
-    near = 1.0 / distance
-    return abs(spin), 0.3 * math.log10(max(2.6 * near, 2.6e-4) / math.radians(fov_deg)), 2.0 * near, 0.3 * abs(math.cos(math.radians(inclination_deg)))
 
 
 def _why(scene: Scene, best: Prediction, good: bool, floor: float) -> str:

@@ -10,7 +10,7 @@ import pytest
 
 from blackhole_gl import planning
 from blackhole_gl.physics import observer, relativity
-from blackhole_gl.planning import make
+from blackhole_gl.planning import steps
 from blackhole_gl.rendering.frame import Renderer
 from studies import stability, stability_page
 from studies.stability_case import Topic, impact
@@ -132,7 +132,7 @@ def test_escape_directions_do_not_depend_on_the_stop_radius(renderer: Renderer, 
     directions = observer.local_directions(rays[:, 0], rays[:, 1])
     usual, _, _ = renderer.trace_listed(scene, directions)
     with monkeypatch.context() as changed:
-        changed.setattr(make, "MARCH_BOUND", bound)
+        changed.setattr(steps, "MARCH_BOUND", bound)
         planning.plan.cache_clear()
         moved, _, _ = renderer.trace_listed(scene, directions)
         planning.plan.cache_clear()

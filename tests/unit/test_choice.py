@@ -12,7 +12,7 @@ import pytest
 from blackhole_gl import planning, resources
 from blackhole_gl.measure.scenes import is_charted, view_of
 from blackhole_gl.physics.space_time import is_inside
-from blackhole_gl.planning import choice, measured
+from blackhole_gl.planning import choice, measured, nearest
 from blackhole_gl.scene import Scene, presets
 
 # From inside the horizon steps are stated.
@@ -50,9 +50,9 @@ def test_no_measured_method_that_meets_the_tolerance_is_a_quarter_cheaper(name):
 @pytest.mark.parametrize("name", MEASURED)
 def test_a_preset_that_nobody_has_measured_goes_by_those_that_are_like_it(name, monkeypatch):
     """As one that was just written: with the rows of a shipped one left out, its like have it traced by the same method, and expect much the same of it."""
-    scene, table_of_all = presets.load([name]), choice.measurements()
+    scene, table_of_all = presets.load([name]), nearest.measurements()
     with_its_own = choice.choose(scene).chosen
-    monkeypatch.setattr(choice, "measurements", lambda: {other: rows for other, rows in table_of_all.items() if other != name})
+    monkeypatch.setattr(nearest, "measurements", lambda: {other: rows for other, rows in table_of_all.items() if other != name})
     planning.forget_measurements()
     made = choice.choose(scene)
     planning.forget_measurements()
@@ -114,7 +114,7 @@ def test_thin_rings_are_not_traced():
 
 
 def test_without_a_table_steps_are_plain(monkeypatch):
-    monkeypatch.setattr(choice, "measurements", dict)
+    monkeypatch.setattr(nearest, "measurements", dict)
     planning.forget_measurements()
     made = choice.choose(Scene())
     planning.forget_measurements()
@@ -140,7 +140,7 @@ def test_a_choice_reads_the_rows_of_scenes_that_are_near_and_one_of_each_other(m
     """A start spends 20 ms on reading all of them."""
     read = []
     monkeypatch.setattr(measured, "_row", lambda texts, row=measured._row: read.append(texts["scene"]) or row(texts))
-    choice.measurements.cache_clear()
+    nearest.measurements.cache_clear()
     planning.forget_measurements()
     choice.choose(KERR)
     assert read.count("kerr") > 20 and all(read.count(name) == 1 for name in set(read) - {"kerr"})
@@ -152,7 +152,7 @@ def stored(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
 
     def put(*rows: measured.Measured) -> None:
         by_scene = {name: [row for row in rows if row.scene == name] for name in dict.fromkeys(row.scene for row in rows)}
-        monkeypatch.setattr(choice, "measurements", lambda: by_scene)
+        monkeypatch.setattr(nearest, "measurements", lambda: by_scene)
         planning.forget_measurements()
 
     yield put
@@ -190,7 +190,7 @@ def test_between_two_measured_scenes_the_worse_is_believed(stored):
     there = {"scene": "there", "distance": 60.0, "fov_deg": 0.5 * CAMERA.fov_deg}
     stored(MARCHED, REFINED, replace(MARCHED, **there), replace(REFINED, **there, cost_flat_ratio=4.0))
     scene = KERR.with_values({"camera.distance": 24.0})
-    assert choice._nearest_scenes(scene) == ("here", "there")
+    assert nearest.nearest_scenes(scene) == ("here", "there")
     found = choice.refinement(choice.choose(scene).scene)
     assert found.error_px == pytest.approx(0.1 + 0.4) and found.cost == 3.0
     stored(MARCHED, REFINED, replace(MARCHED, **there))
