@@ -66,7 +66,7 @@ def fields_of(place: Place, kind: str) -> Mapping[str, Field]:
     return _fields_of(place.section, place.name, kind)
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=4096)  # more than a scene has: what is asked of each in turn would otherwise be made anew at every round
 def _fields_of(section: str, name: str, kind: str) -> Mapping[str, Field]:
     kinds = catalogue.plug_ins(SLOTS[section])
     chosen = Field(f"{section}.{name}.{KIND}", "choice", kind, help=kinds[kind].summary, options=tuple(kinds))
@@ -93,6 +93,7 @@ def changed(section: str, instances: Instances, values: Iterable[tuple[Place, An
         SceneError: a name, kind, parameter or value that cannot be; the key is in the text.
     """
     by_name: dict[str, dict[str, Any]] = {}
+    new: dict[str, Instance] = {}  # put in together: a mapping made anew for each of them would take time that grows as their number squared
     for place, value in values:
         by_name.setdefault(place.name, {})[place.parameter] = value
     for name, given in by_name.items():
@@ -107,8 +108,8 @@ def changed(section: str, instances: Instances, values: Iterable[tuple[Place, An
             entries[parameter] = known[parameter].check(value)
         made = Instance(made.kind, made.values.updated(entries))
         refuse_disorder(place.path, _increasing(section, made.kind), made.values.__getitem__, entries)
-        instances = instances.updated({name: made})
-    return instances
+        new[name] = made
+    return instances.updated(new)
 
 
 def renamed(place: Place, instances: Instances, name: str) -> Instances:

@@ -6,6 +6,8 @@ import math
 import os
 import pickle
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +16,8 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from blackhole_gl.output import png
-from blackhole_gl.scene import FrozenMap, Instance, Scene, SceneError, catalogue, fields, presets
+from blackhole_gl.scene import FrozenMap, Instance, Scene, SceneError, catalogue, fields, instances, presets
+from blackhole_gl.scene.instances import Place
 from blackhole_gl.scene.presets import PresetError
 from tests.unit.kinds import known_kinds  # noqa: F401
 
@@ -452,3 +455,34 @@ def test_defaults_are_not_written_but_the_kind_is():
     assert presets.dumps(moon(radius=2.0, path=[{"time": 1.0}])) == (
         '[things.moon]\nkind = "globe"\nradius = 2.0\n\n[[things.moon.path]]\ntime = 1.0\nease = "smooth"\nimage = ""\n'
     )
+
+
+def _work_of_loading(count: int, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
+    """How many items go into frozen maps while a file of `count` things is read and put over a scene: what it takes, whatever else the machine does."""
+    path = folder / f"{count}.toml"
+    path.write_text("".join(f'[things.s{number}]\nkind = "globe"\nradius = {1 + number % 40}.0\n' for number in range(count)))
+    work = 0
+    plain = FrozenMap.__init__
+
+    def counting(self: FrozenMap, items: Any = ()) -> None:
+        nonlocal work
+        plain(self, items)
+        work += len(self)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(FrozenMap, "__init__", counting)
+        made = presets.load([path])
+    assert len(made.things) == count
+    return work
+
+
+def test_a_scene_of_many_things_is_read_in_a_time_that_grows_as_their_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """1,500 spheres took a minute of processor time, as each of them made the mapping of all anew."""
+    few, many = (_work_of_loading(count, tmp_path, monkeypatch) for count in (50, 400))
+    assert many < 1.2 * 8 * few
+
+
+def test_the_fields_of_a_thousand_things_are_made_once():
+    places = [Place("things", f"s{number}") for number in range(1000)]
+    made = [instances.fields_of(place, "globe") for place in places]
+    assert all(instances.fields_of(place, "globe") is fields for place, fields in zip(places, made))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -15,7 +15,7 @@ from ...text_files import decimal_comma
 from .. import FrozenMap, Scene, catalogue, fields, instances, lengths
 from ..catalogue import KIND, SWITCH
 from ..headers import is_name
-from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, describe, nearest, nearest_key
+from ..schema import WHOLE_NUMBER_LIMIT, Field, SceneError, Value, describe, nearest, nearest_key
 from . import paths
 
 GROUPS = ("physics", "look", "quality", "steps", "scene")
@@ -85,7 +85,7 @@ class Preset:
         made = self._anchored_over(scene)
         if self.any_file:
             return made
-        return made.with_values({key: paths.kept_within(made.field(key), made.get(key), self.folder) for key in self.values})
+        return self._with_paths(made, lambda item, value: paths.kept_within(item, value, self.folder))
 
     def refused(self, scene: Scene) -> tuple[str, ...]:
         """What `over` leaves out because it is a file outside the preset's own folder, a sentence each.
@@ -105,9 +105,14 @@ class Preset:
             made = scene.with_values(self.values)
         except SceneError as error:
             raise self._error(error.key, error.message, error.entry) from None
-        if self.folder is None:
-            return made
-        return made.with_values({key: paths.anchored(made.field(key), made.get(key), self.folder) for key in self.values})
+        folder = self.folder
+        return made if folder is None else self._with_paths(made, lambda item, value: paths.anchored(item, value, folder))
+
+    def _with_paths(self, scene: Scene, change: Callable[[Field, Value], Value]) -> Scene:
+        """`scene` with `change` made to the paths among what this preset sets."""
+        old = {key: scene.get(key) for key in self.values}
+        new = {key: change(scene.field(key), value) for key, value in old.items()}
+        return scene.with_values({key: value for key, value in new.items() if value != old[key]})
 
     def _error(self, key: str, message: str, entry: int = 0) -> PresetError:
         return PresetError(message, key=key, source=self.source, line=_line_of(key, self.text, entry))
