@@ -29,7 +29,7 @@ _MARGIN = 2
 
 
 _BAND_PIXELS = 1 << 22  # in a band, or a row of tiles where that is more
-_MOST_WIDE = 8192  # pixels of a texture: drivers end at 16384
+_MOST_WIDE = 8192  # pixels of a texture, along either side: drivers end at 16384
 
 Place = tuple[int, int]
 """(x, y) of a pixel from the bottom left."""
@@ -74,9 +74,14 @@ class Stills:
         Args:
             samples: rays a pixel along each axis.
             tile: side of the tiles in pixels; even.
+
+        Raises:
+            ValueError: all light of a picture is needed at once, which the driver has no texture for.
         """
         views = _views(moments, size)
-        if size[0] * size[1] <= tile * tile:  # one is enough, whatever its shape
+        if _needs_all(moments[0][0]):
+            self._refuse_larger_than_a_texture(size)
+        if size[0] * size[1] <= tile * tile and max(size) <= _MOST_WIDE:  # one is enough, whatever its shape
             tile = -(-max(size) // GLOW_GRID) * GLOW_GRID
         for number, view in enumerate(views):
             for share, rows in self._view_bands(view, samples, tile):
@@ -103,6 +108,13 @@ class Stills:
             self._target.release()
         self._target = None
 
+    def _refuse_larger_than_a_texture(self, size: tuple[int, int]) -> None:
+        most = self._ctx.info["GL_MAX_TEXTURE_SIZE"]
+        if max(size) > most:
+            width, height = size
+            text = f"at most {most} pixels a side with post.lens, post.beam or post.colours, which need all of a picture at once"
+            raise ValueError(f"size: got {width}x{height}; allowed is {text}")
+
     def _view_bands(self, view: _View, samples: int, tile: int) -> Iterator[tuple[float, np.ndarray | None]]:
         plan, time = view.moments[len(view.moments) // 2]
         inputs = FrameInputs.whole(plan, time, view.size)
@@ -128,7 +140,7 @@ class Stills:
         """Bands from the top down, and the share done with each of their tiles."""
         width, height = view.size
         rows = math.lcm(tile, GLOW_GRID)
-        rows = -(-height // rows) * rows if whole else max(_BAND_PIXELS // width // rows, 1) * rows
+        rows = -(-height // rows) * rows if whole else max(min(_BAND_PIXELS // width, _MOST_WIDE) // rows, 1) * rows
         wide = width if whole else max(min(_MOST_WIDE, width) // math.lcm(tile, GLOW_GRID), 1) * math.lcm(tile, GLOW_GRID)
         for first in range((height - 1) // rows * rows, -1, -rows):
             end = min(first + rows, height)

@@ -66,6 +66,19 @@ def test_what_is_held_does_not_grow_with_the_height(renderer: Renderer) -> None:
     assert held[1][1] < 1.2 * held[0][1]
 
 
+@pytest.mark.parametrize("size", [(16400, 1), (1, 16400), (8, 16400)])
+def test_a_strip_longer_than_a_texture_is_drawn(renderer: Renderer, size: tuple[int, int]) -> None:
+    """It has no more pixels than a tile, and was drawn as one."""
+    renderer.render_still(presets.load(["kerr"]), 0.0, size)
+    assert renderer.read_rgb8().shape == (size[1], size[0], 3)
+
+
+@pytest.mark.parametrize("values", [{"post.lens": True}, {"post.beam": True}, {"post.colours": "afmhot"}])
+def test_a_picture_whose_light_is_needed_at_once_is_refused_where_no_texture_holds_it(renderer: Renderer, values: dict) -> None:
+    with pytest.raises(ValueError, match="got 1x40000; allowed is at most [0-9]+ pixels a side with post.lens, post.beam or post.colours"):
+        renderer.render_still(presets.load(["kerr"], values), 0.0, (1, 40000))
+
+
 def test_rows_that_are_written_one_by_one_are_the_picture(tmp_path: Path) -> None:
     pixels = np.random.default_rng(3).integers(0, 256, (37, 11, 3), np.uint8)
     with png.opened(tmp_path / "a.png", (11, 37)) as file:
