@@ -28,7 +28,7 @@ from .planning import Plan
 from .planning import plan as make_plan
 from .renderers import Rays, Renderer, gpus, of_picture
 from .rendering import still_files
-from .scene import Scene, SceneError
+from .scene import Scene, SceneError, refuse_other
 from .scene import presets as preset_files
 from .scene.lengths import UNITS
 from .scene.presets import PresetInfo
@@ -64,6 +64,7 @@ def render(scene: Scene, size: Sequence[SupportsIndex] = (1280, 720), time: floa
 
     Raises:
         SceneError, ValueError: the scene cannot be drawn, or an argument is out of range; the text says what is allowed.
+        TypeError: it is no scene, but a preset's name, say.
         ContextError: there is no OpenGL here; the text says what to install.
     """
     return _shared.render(scene, size, time, samples)
@@ -113,6 +114,7 @@ def plan(scene: Scene) -> Plan:
     Raises:
         SceneError: its ray model, integrator and step control do not fit together.
     """
+    refuse_other(scene)
     return make_plan(scene)
 
 
@@ -177,6 +179,7 @@ def save(
         ValueError: another suffix or unit, or one whose library is not there; as in `render`.
         OSError: it cannot be written.
     """
+    refuse_other(scene)
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix == ".toml":
@@ -203,6 +206,7 @@ def show(scene: Scene, *, wait: bool = True) -> subprocess.Popen:
     Returns:
         That process.
     """
+    refuse_other(scene)
     kept = tempfile.mkdtemp(prefix="blackhole-gl-")
     path = preset_files.save(scene, Path(kept) / "scene.toml", title="From Python")
     # The folder of the scene goes with the viewer, which reads it once.

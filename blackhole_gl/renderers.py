@@ -19,7 +19,7 @@ from .measure.light_curve import LightCurve
 from .rendering import context
 from .rendering.annotation import annotated
 from .rendering.frame import Renderer as _Renderer
-from .scene import Scene
+from .scene import Scene, refuse_other
 from .shapes import Float, Int
 
 _MOST_SIDE = 32768
@@ -95,10 +95,12 @@ class Renderer:
 
     def hits(self, scene: Scene, size: Sequence[SupportsIndex] = (1280, 720)) -> Rays:
         """As the function `hits`."""
+        refuse_other(scene)
         return self._traced(scene, listed_rays.pixel_rays(scene, _size(size)))
 
     def lightcurve(self, scene: Scene, times: ArrayLike | None = None, size: Sequence[SupportsIndex] = (320, 180)) -> LightCurve:
         """As the function `lightcurve`."""
+        refuse_other(scene)
         when = light_curve.times(scene, 96) if times is None else np.atleast_1d(np.asarray(times, float))
         if when.ndim != 1 or not np.isfinite(when).all():
             raise ValueError("times: allowed is a list of finite numbers, in r_s/c")
@@ -172,13 +174,14 @@ def of_picture(
     checked, and `more`.
 
     Raises:
-        ValueError: an argument is out of range; and what `work` raises.
+        TypeError: `scene` is none. ValueError: an argument is out of range; and what `work` raises.
     """
     return renderer._thread.call(work, *_asked(scene, size, time, samples), **more)
 
 
 def _asked(scene: Scene, size: Sequence[SupportsIndex], time: float, samples: SupportsIndex | None) -> tuple[Scene, float, tuple[int, int], int]:
     """What a picture is made of, checked, in the order that `still_radiance` takes it."""
+    refuse_other(scene)
     rays = scene.rays.in_stills if samples is None else operator.index(samples)
     if not 1 <= rays <= 16:
         raise ValueError(f"samples: got {samples!r}; allowed is 1 to 16 rays a pixel along each axis")
@@ -191,6 +194,7 @@ def _coordinates(
     scene: Scene, psi: ArrayLike | None, chi: ArrayLike | None, alpha: ArrayLike | None, beta: ArrayLike | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """The two coordinates of rays that the camera of `scene` takes, broadcast."""
+    refuse_other(scene)
     wanted = listed_rays.columns(scene)
     given = {"psi": psi, "chi": 0.0 if chi is None and psi is not None else chi, "alpha": alpha, "beta": beta}
     there = tuple(name for name, values in given.items() if values is not None)

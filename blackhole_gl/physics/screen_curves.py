@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..scene import Scene, SceneError
+from ..scene import Scene, SceneError, refuse_other
 from ..shapes import Float
 from . import angular_size, lensed_circles, projection
 from .observer import observe
@@ -69,9 +69,9 @@ def critical_curve(scene: Scene, samples: int = 512) -> ScreenCurve:
     """The edge of the shadow, light on spherical orbits (Bardeen 1973): exact at each of `samples` points, in M, µas and pixels.
 
     Raises:
-        SceneError: the scene's space-time has no photon orbits.
+        SceneError: the scene's space-time has no photon orbits. ValueError: there are no samples.
     """
-    _refuse_without_hole(scene)
+    _refuse_without_points(scene, samples)
     away, angle = lensed_circles.critical_points(observe(scene), samples)
     return _curve(scene, "critical", math.nan, -1, angle, away)
 
@@ -82,8 +82,9 @@ def isoradials(scene: Scene, radii: ArrayLike, orders: ArrayLike = (0,), samples
 
     Raises:
         SceneError: the scene's space-time has no closed form; or a radius not between the horizon and the camera, or an order not 0, 1, 2, ….
+        ValueError: there are no samples.
     """
-    _refuse_without_hole(scene)
+    _refuse_without_points(scene, samples)
     radius, order = np.atleast_1d(np.asarray(radii, float)), np.atleast_1d(np.asarray(orders))
     horizon = space_time(scene).horizon_radius
     if not np.all((radius > horizon) & (radius < scene.camera.distance) & np.isfinite(radius)):
@@ -102,7 +103,10 @@ def _is_far(scene: Scene) -> bool:
     return math.isinf(scene.camera.distance)
 
 
-def _refuse_without_hole(scene: Scene) -> None:
+def _refuse_without_points(scene: Scene, samples: int) -> None:
+    refuse_other(scene)
+    if samples < 1:
+        raise ValueError(f"samples: got {samples!r}; allowed is 1 point or more")
     if ray_model(scene).traits.space_time not in ("schwarzschild", "kerr"):
         raise SceneError("rays.model", f"got {ray_model(scene).key}, without closed forms; allowed are models of Schwarzschild's and Kerr's space-times")
 

@@ -142,7 +142,9 @@ def _array(data: bytes) -> Array:
         raise Unusable(f"it is damaged: {error or type(error).__name__}") from None
     if values.dtype.kind == "u":
         return _linear(values, float(np.iinfo(values.dtype).max))
-    light = np.nan_to_num(values.astype(np.float32), nan=0.0, posinf=_BRIGHTEST, neginf=0.0)
+    with np.errstate(over="ignore"):  # beyond what single precision holds is as bright as can be
+        light = values.astype(np.float32)
+    light = np.nan_to_num(light, nan=0.0, posinf=_BRIGHTEST, neginf=0.0)
     return np.clip(_three(light[..., :3]) * (np.clip(light[..., 3:], 0.0, 1.0) if light.shape[2] == 4 else 1.0), 0.0, _BRIGHTEST)
 
 

@@ -18,7 +18,7 @@ from . import catalogue, instances, sections
 from .frozen import FrozenMap
 from .instances import Instances, Place
 from .order import refuse_disorder
-from .schema import Field, SceneError, Value, nearest_key
+from .schema import Field, SceneError, Value, describe, nearest_key
 from .sections import Camera, Disk, Hole, Playback, Polarization, Post, Rays, Sky, Source
 
 
@@ -165,6 +165,16 @@ class Scene:
 
     def __reduce__(self):
         return _restore, (self.values(),)
+
+
+def refuse_other(value: object) -> None:
+    """Refuses what is no scene, as a preset's name where one is asked for.
+
+    Raises:
+        TypeError: it is none.
+    """
+    if not isinstance(value, Scene):
+        raise TypeError(f"scene: got {describe(value)}; allowed is a Scene, as load('kerr') makes one")
 
 
 def _restore(values: Mapping[str, Value]) -> Scene:

@@ -49,6 +49,32 @@ def two_renderers_used_in_turn_a_hundred_times_draw_what_each_should() -> None:
     assert np.array_equal(bh.render(scenes[0], SIZE), truth[0]), "the other's end is not this one's"
 
 
+def what_is_no_scene_is_told_so_by_every_function() -> None:
+    asked = [
+        bh.render, bh.radiance, lambda scene: bh.trace(scene, psi=[0.1]), bh.hits, bh.lightcurve, bh.plan, bh.show, lambda scene: bh.save("a.png", scene),
+        lambda scene: bh.save("a.toml", scene), lambda scene: bh.visibilities(scene, [1e9], [0.0]), bh.critical_curve,
+        lambda scene: bh.isoradials(scene, [3.0]),
+    ]  # fmt: skip
+    for ask in asked:
+        for value in ("kerr", None):
+            try:
+                ask(value)
+            except TypeError as error:
+                assert str(error).startswith("scene: got ") and "allowed is a Scene, as load('kerr') makes one" in str(error), error
+            else:
+                raise AssertionError(f"{ask} took {value!r}")
+
+
+def curves_without_points_are_refused() -> None:
+    for ask in (lambda: bh.critical_curve(bh.load("kerr"), 0), lambda: bh.isoradials(bh.load("kerr"), [3.0], samples=0)):
+        try:
+            ask()
+        except ValueError as error:
+            assert "samples: got 0; allowed is 1 point or more" in str(error)
+        else:
+            raise AssertionError("no points were drawn")
+
+
 def threads_get_their_own_pictures() -> None:
     scenes = [bh.load("kerr", {"hole.spin": spin}) for spin in (0.0, 0.3, 0.6, 0.9)]
     truth = [bh.render(scene, SIZE) for scene in scenes]

@@ -115,6 +115,11 @@ FILES = {
 }
 
 
+@pytest.mark.filterwarnings("error")
+def test_light_beyond_single_precision_is_the_brightest_without_a_word(tmp_path: Path) -> None:
+    assert read(tmp_path, "a.npy", npy(np.full((8, 16, 3), 1e300)))[0].max() == panorama_files._BRIGHTEST
+
+
 @pytest.mark.parametrize("name, data", FILES.values(), ids=FILES)
 def test_every_depth_holds_the_same_light(tmp_path: Path, name: str, data: bytes) -> None:
     """To 0.012: a pixel of 0.016 rad, of which the pole's row knows the middle alone, and 8 bits."""
