@@ -150,8 +150,8 @@ def draw(
     with ThreadPoolExecutor(1) as writer, ThreadPoolExecutor(1) as packer:
         for done, number in enumerate(numbers):
             if number in wanted:
-                pixels, text = frame(renderer, film, number, folder)
-                waiting.append(writer.submit(png.write, frame_path(folder, number), pixels, text, packed=stays))
+                pixels, shown = frame(renderer, film, number)
+                waiting.append(writer.submit(_write, folder, number, pixels, shown, stays))
                 if pack is not None:
                     waiting.append(packer.submit(pack, pixels))
             elif pack is not None:
@@ -165,12 +165,16 @@ def draw(
     return len(wanted)
 
 
+def _write(folder: Path, number: int, pixels: np.ndarray, shown: Moment, stays: bool) -> None:
+    png.write(frame_path(folder, number), pixels, frame_text(shown, folder), packed=stays)
+
+
 def _pack_kept(pack: Callable[[np.ndarray], None], path: Path) -> None:
     pack(png.read(path))
 
 
-def frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np.ndarray, str]:
-    """The pixels of frame `number`, uint8 (height, width, 3), and the scene that its picture in `folder` carries, as TOML.
+def frame(renderer: Renderer, film: Film, number: int) -> tuple[np.ndarray, Moment]:
+    """The pixels of frame `number`, uint8 (height, width, 3), and the moment whose scene its picture carries.
 
     Raises:
         SceneError, ValueError: it cannot be drawn.
@@ -178,8 +182,12 @@ def frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np
     moments = film.moments(number)
     shown = moments[len(moments) // 2]
     renderer.render_mean([(moment.scene, moment.time) for moment in moments], film.size, film.samples)
-    pixels = annotated(renderer.read_rgb8(), shown.scene, renderer.view_of(shown.scene))
-    return pixels, presets.picture_text(shown.scene, shown.time, folder.absolute())
+    return annotated(renderer.read_rgb8(), shown.scene, renderer.view_of(shown.scene)), shown
+
+
+def frame_text(shown: Moment, folder: Path) -> str:
+    """What a frame's picture in `folder` carries, as TOML: no work for the thread that draws."""
+    return presets.picture_text(shown.scene, shown.time, folder.absolute())
 
 
 def encode(film: Film, folder: Path, out: Path, codec_name: str) -> None:

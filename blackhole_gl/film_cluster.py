@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-import numpy as np
-
-from .film import Film, FilmError, frame, frame_path, missing
+from .film import Film, FilmError, frame, frame_path, frame_text, missing
 from .gl_thread import GlThread
 from .output import png
 from .output.files import write_whole
-from .rendering.frame import Renderer
 
 _RETRIES = 3
 """Times that a frame is drawn anew whose worker has died."""
@@ -50,12 +47,8 @@ def _drawn(number: int, film: Film, folder: Path) -> tuple[int, bytes]:
     global _own
     if _own is None:
         _own = GlThread()
-    pixels, text = _own.call(_frame, film, number, folder)
-    return number, png.encode(pixels, text)
-
-
-def _frame(renderer: Renderer, film: Film, number: int, folder: Path) -> tuple[np.ndarray, str]:
-    return frame(renderer, film, number, folder)
+    pixels, shown = _own.call(frame, film, number)
+    return number, png.encode(pixels, frame_text(shown, folder))
 
 
 def _distributed():

@@ -33,8 +33,11 @@ class Codec:
     options: tuple[tuple[str, str], ...]
 
 
+# Of x264: without these its preset takes twice the processor time, for a tenth fewer bytes.
+_QUICK = ("subq", "1"), ("partitions", "none"), ("motion-est", "dia")
+
 CODECS = {
-    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "veryfast"), ("subq", "1"))),
+    "h264": Codec(("libx264", "libopenh264"), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "16"), ("preset", "veryfast"), *_QUICK)),
     "h265": Codec(("libx265",), (".mp4", ".mov", ".mkv"), "yuv420p", (("crf", "18"), ("tag", "hvc1"), ("x265-params", "log-level=none"))),
     "vp9": Codec(("libvpx-vp9",), (".webm", ".mkv"), "yuv420p", (("crf", "20"), ("b", "0"), ("row-mt", "1"))),
     "av1": Codec(("libsvtav1", "libaom-av1"), (".mp4", ".webm", ".mkv"), "yuv420p10le", (("crf", "22"),)),
@@ -77,9 +80,11 @@ def packing(
         with av.open(str(part), "w") as container:
             container.metadata.update({"title": title, "comment": comment})
             stream, numbers = _stream(container, size, fps, codec, available[codec_name]), count()
+            converter = av.video.reformatter.VideoReformatter()  # keeps its tables, which each picture would else make anew
 
             def pack(pixels: np.ndarray) -> None:
-                picture = av.VideoFrame.from_ndarray(pixels, format="rgb24").reformat(format=codec.pixels, dst_colorspace="ITU709", threads=1)
+                given = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(pixels), format="rgb24")
+                picture = converter.reformat(given, format=codec.pixels, dst_colorspace="ITU709", threads=1)
                 picture.pts, picture.time_base = next(numbers), 1 / fps
                 container.mux(stream.encode(picture))
 

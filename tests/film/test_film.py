@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import film, film_cluster, films
-from blackhole_gl.output import png, spherical
+from blackhole_gl.output import film_file, png, spherical
 from blackhole_gl.physics import flight_files
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.scene import presets
@@ -93,6 +93,16 @@ def test_a_packed_film_has_every_frame_at_its_time(made: film.Film, drawn: Path,
         assert apart[number] < 4.0
         if 2 < number < 6:  # at its ends the flight rests nearly, and its frames are alike
             assert np.argmin(apart) == number
+
+
+def test_the_encoder_takes_its_settings(made: film.Film, drawn: Path, tmp_path: Path) -> None:
+    """FFmpeg passes over an option that it does not know; x264 writes into the file what it went by."""
+    if film_file.encoders().get("h264") != "libx264":
+        pytest.skip("PyAV has no x264 here")
+    film.encode(made, drawn, tmp_path / "x.mp4", "h264")
+    packed = (tmp_path / "x.mp4").read_bytes()
+    for setting in (b" crf=16.0 ", b" me=dia ", b" subme=1 ", b":0 me="):  # the last: partitions of P and B pictures, none
+        assert setting in packed, setting
 
 
 def test_a_film_that_is_packed_while_it_is_drawn_is_the_same(made: film.Film, drawn: Path, renderer: Renderer, tmp_path: Path) -> None:
