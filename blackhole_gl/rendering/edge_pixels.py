@@ -144,23 +144,25 @@ def _counts(marks: np.ndarray, through_veil: np.uint16) -> np.ndarray:
 def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     """Which of `pixels` (N, 2) of `marks` (height, width) lie at the outline of a thing or at the rim of a field and at nothing else, bool (N,): within and
     beside them nothing is narrower than two pixels, and nothing but what is met and whether the ray comes into the field changes."""
-    height, width = marks.shape
-    steps = np.arange(-2, 3)
-    columns, rows = (np.clip(places[:, None] + steps, 0, side - 1) for places, side in zip(pixels.T, (width, height)))
-    near = marks[rows[:, :, None], columns[:, None, :]]
-    has_ray = _has_ray(near)
-    largest, least = _in_squares(np.maximum, np.where(has_ray, near, 0)), _in_squares(np.minimum, np.where(has_ray, near, _LARGEST))
-    wide = _in_squares(np.logical_or, largest <= least)  # in a square that is all alike
+    if not len(pixels):
+        return np.zeros(0, bool)
+    near = np.pad(marks, 2, mode="edge")
+    least, most = _in_squares(np.minimum, near), _in_squares(np.maximum, near + np.uint16(1)) - np.uint16(1)  # by which no ray counts for nothing
+    wide = _in_squares(np.logical_or, most <= least)  # in a square that is all alike
+    plain = _in_squares(np.logical_and, _in_squares(np.logical_and, wide))  # so are the pixels beside it
+    near = near[1:-1, 1:-1]
     seen = np.where(near & 3 == Fate.MET, near - (Fate.MET - Fate.ESCAPED), near) & ~np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
-    beside, here = seen[:, 1:-1, 1:-1], seen[:, 2:3, 2:3]
-    changes = has_ray[:, 1:-1, 1:-1] & (beside != here)
-    return np.all(wide & ~changes, axis=(1, 2))
+    has_ray, (height, width) = _has_ray(near), marks.shape
+    for row, column in np.ndindex(3, 3):
+        beside = slice(row, row + height), slice(column, column + width)
+        plain &= ~has_ray[beside] | (seen[beside] == seen[1:-1, 1:-1])
+    return plain[pixels[:, 1], pixels[:, 0]]
 
 
 def _in_squares(of_two: np.ufunc, values: np.ndarray) -> np.ndarray:
-    """What `of_two` makes of each square of 2×2 in the last two axes."""
-    pairs = of_two(values[:, 1:], values[:, :-1])
-    return of_two(pairs[:, :, 1:], pairs[:, :, :-1])
+    """What `of_two` makes of each square of 2×2."""
+    pairs = of_two(values[1:], values[:-1])
+    return of_two(pairs[:, 1:], pairs[:, :-1])
 
 
 def _has_ray(marks: np.ndarray) -> np.ndarray:
