@@ -3,7 +3,8 @@
 // rays where they are not, PIXEL_NEITHER where nothing is.
 //
 // Interpolated is where the rays at the corners and those around meet the same or go the same way, and where what is left out (common/row_error.glsl) displaces what is
-// seen by less than refine_px, or light's direction by less than the angle of as many pixels: where a field crowds much of the sky into a pixel, the former.
+// seen by less than refine_px, or light's direction by less than the angle of as many pixels: where a field crowds much of the sky into a pixel, the former. Where six in a
+// row go the same way, all of them count; at an outline three will do, but of a thing with many parts (common/half_ways.glsl).
 #defines
 #include "common/constants.glsl"
 
@@ -11,6 +12,7 @@
 #include "common/hits.glsl"
 #include "common/hit_texels.glsl"
 #include "common/row_error.glsl"
+#include "common/half_ways.glsl"
 
 uniform sampler2D chosen;        // refine_half_marks.frag
 uniform sampler2D cell_classes;
@@ -42,41 +44,118 @@ vec3 shorter(vec3 a, vec3 b) {
     return dot(a, a) < dot(b, b) ? a : b;
 }
 
-// A row of four nodes, the cell between the middle two: whether all end on `what`, and the error of interpolation between them. Where one part of a thing hides another,
-// places jump within the cell, and change little beside it: the least slope counts.
-bool row_of(ivec2 first, ivec2 step, int what, out vec3 slope, out vec3 error) {
-    vec3 places[4];
-    bool alike = true;
-    for (int k = 0; k < 4; ++k)
-        alike = end_of(first + k * step, places[k]) == what && alike;
-    error = row_error(places);
-    slope = places[2] - places[1];
-    if (what > 0) slope = shorter(slope, shorter(places[1] - places[0], places[3] - places[2]));
-    slope *= 0.5;
-    return alike;
+// The error of six nodes, of what they have beyond the middle four: the less, the smaller that is beside what those have beyond the middle two, as terms become small as fast.
+const float OF_LAST = 0.5, OF_RATIO = 40.0, MOST_OF_LAST = 4.0;
+
+// The same of three, of their second difference, and of the third where another lies behind them that goes the same way. Of a root, which is how places go at an outline, a
+// quadratic leaves out an eighth of the second, as in refine_things.frag.
+const float OF_THREE = 1.0 / 8.0, OF_FOUR = 1.0 / 16.0;
+
+// Six nodes in a row, the cell between the middle two: where they end, and a bit for each that ends on `what`.
+struct Row {
+    vec3 place[6];
+    int alike;
+};
+
+const int MIDDLE = 12, FIRST = 2, LAST = 16, ALL_SIX = 63;
+
+bool is_there(ivec2 node) {
+    return node == clamp(node, ivec2(0), textureSize(half0, 0) - 1);
 }
 
-// How far from its surface a place on a thing may be, r_s: of those that tell_apart, which are looked for again near the place when they are shaded, no farther than
-// half a pixel is wide.
-float room_beside(int what, vec3 place) {
-    float room = 1e30;
+Row row_from(ivec2 first, ivec2 step, int what) {
+    Row row;
+    row.alike = 0;
+    for (int k = 0; k < 6; ++k) {
+        ivec2 node = first + k * step;
+        if (end_of(node, row.place[k]) == what && (k > 0 && k < 5 || is_there(node))) row.alike |= 1 << k;
+    }
+    return row;
+}
+
+// By which of them to interpolate, of two rows side by side of which all these are alike; −1: by none.
+int way_along(int alike) {
+    if ((alike & MIDDLE) != MIDDLE) return -1;
+    if ((alike & FIRST) != 0) return (alike & LAST) != 0 ? BY_FOUR : WITHOUT_LAST;
+    return (alike & LAST) != 0 ? WITHOUT_FIRST : -1;
+}
+
 #if MEETINGS
-    float pixel = 0.5 * refine_tolerance.y / refine_px * distance(place, camera_n.xyz * (0.5 / camera_w));
-#each thing_told_apart : if (what > 0 && (what & 31) == THING_$KEY + 1) room = pixel;
+// Whether what lies beyond the side of a cell where a ray at least ends on something else has three rays side by side, of the six along that side: else it may be a tip
+// that comes in between two rays.
+bool is_wide_beyond(ivec2 first, ivec2 step, int what) {
+    bool other[6];
+    vec3 place;
+    for (int k = 0; k < 6; ++k)
+        other[k] = end_of(first + k * step, place) != what;
+    return other[2] && other[1] && (other[0] || other[3]) || other[3] && other[4] && (other[5] || other[2]);
+}
+
+bool are_sides_wide(ivec2 corner, int along_x, int along_y, int what) {
+    bool wide = true;
+    if (along_x != BY_FOUR) wide = is_wide_beyond(corner + ivec2(along_x == WITHOUT_FIRST ? -1 : 2, -2), ivec2(0, 1), what);
+    if (along_y != BY_FOUR) wide = is_wide_beyond(corner + ivec2(-2, along_y == WITHOUT_FIRST ? -1 : 2), ivec2(1, 0), what) && wide;
+    return wide;
+}
 #endif
-    return room;
+
+vec3 error_of_three(vec3 a, vec3 b, vec3 c, vec3 behind, bool is_behind) {
+    vec3 second = c - 2.0 * b + a;
+    return is_behind ? OF_FOUR * (behind - 2.0 * c + b - second) + OF_SECOND * second : OF_THREE * second;
+}
+
+vec3 error_of(Row row, int what, int way, bool by_six) {
+    vec3 mean = 0.5 * (row.place[2] + row.place[3]), about = 0.5 * (row.place[1] + row.place[4]), last = beyond_cubic(mean, about, 0.5 * (row.place[0] + row.place[5]));
+    if (by_six) return min(OF_LAST + OF_RATIO * length(last) / max(length(about - mean), 1e-12), MOST_OF_LAST) * last;
+#if MEETINGS
+    if (way == WITHOUT_FIRST) return error_of_three(row.place[2], row.place[3], row.place[4], row.place[5], what < 0 && (row.alike & 32) != 0);
+    if (way == WITHOUT_LAST) return error_of_three(row.place[3], row.place[2], row.place[1], row.place[0], what < 0 && (row.alike & 1) != 0);
+#endif
+    return row_error(vec3[4](row.place[1], row.place[2], row.place[3], row.place[4]));
+}
+
+// From pixel to pixel. Where one part of a thing hides another, places jump within the cell, and change little beside it: the least counts.
+vec3 slope_of(Row row, int what, int way) {
+    vec3 slope = row.place[3] - row.place[2];
+    if (what > 0 && way != WITHOUT_FIRST) slope = shorter(slope, row.place[2] - row.place[1]);
+    if (what > 0 && way != WITHOUT_LAST) slope = shorter(slope, row.place[4] - row.place[3]);
+    return 0.5 * slope;
+}
+
+// Whether rays end on what has many parts.
+bool has_parts(int what) {
+#if MEETINGS
+#each thing_told_apart : if (what > 0 && (what & 31) == THING_$KEY + 1) return true;
+#endif
+    return false;
+}
+
+// How far from its surface a place on a thing may be, r_s: of those with many parts, which are looked for again near the place when they are shaded, no farther than half
+// a pixel is wide.
+float room_beside(int what, vec3 place) {
+    return has_parts(what) ? 0.5 * refine_tolerance.y / refine_px * distance(place, camera_n.xyz * (0.5 / camera_w)) : 1e30;
 }
 
 void main() {
     ivec2 pixels = ivec2(gl_FragCoord.xy), cell = pixels / 2, corner = pixels + HALF_MARGIN;
-    vec3 start, slope[4], error[4];
+    vec3 start, error[4];
     int what = end_of(corner, start);
-    bool alike = what != 0;
-    for (int k = 0; k < 2; ++k) {
-        alike = row_of(corner + ivec2(-1, k), ivec2(1, 0), what, slope[k], error[k]) && alike;
-        alike = row_of(corner + ivec2(k, -1), ivec2(0, 1), what, slope[2 + k], error[2 + k]) && alike;
+    Row rows[4];
+    for (int k = 0; k < 4; ++k) {
+        ivec2 onward = k < 2 ? ivec2(1, 0) : ivec2(0, 1);
+        rows[k] = row_from(corner + (k & 1) * onward.yx - 2 * onward, onward, what);
     }
-    vec3 right = 0.5 * (slope[0] + slope[1]), up = 0.5 * (slope[2] + slope[3]);
+    int along_x = way_along(rows[0].alike & rows[1].alike), along_y = way_along(rows[2].alike & rows[3].alike);
+    bool by_six = what < 0 && (rows[0].alike & rows[1].alike & rows[2].alike & rows[3].alike) == ALL_SIX;
+#if MEETINGS
+    bool alike = what != 0 && min(along_x, along_y) >= 0 && (max(along_x, along_y) == BY_FOUR || !has_parts(what)) && are_sides_wide(corner, along_x, along_y, what);
+#else
+    bool alike = what != 0 && along_x == BY_FOUR && along_y == BY_FOUR;
+#endif
+    for (int k = 0; k < 4; ++k)
+        error[k] = error_of(rows[k], what, k < 2 ? along_x : along_y, by_six);
+    vec3 right = 0.5 * (slope_of(rows[0], what, along_x) + slope_of(rows[1], what, along_x));
+    vec3 up = 0.5 * (slope_of(rows[2], what, along_y) + slope_of(rows[3], what, along_y));
     float moved = 0.0, turned = 0.0;
     for (int k = 0; k < 2; ++k) {
         moved = max(moved, displacement(right, up, error[k], error[2 + k]));
@@ -90,5 +169,5 @@ void main() {
     const bool whole = true;
 #endif
     bool own = held < class_depth(PIXEL_OWN_RAY) + 0.05 || held > class_depth(PIXEL_THING) - 0.05;
-    class_out = may > 0.0 && alike && whole && near ? class_depth(PIXEL_MATTER) : own ? held : class_depth(PIXEL_NEITHER);
+    class_out = may > 0.0 && alike && whole && near ? with_way(along_x, along_y, by_six) : own ? held : class_depth(PIXEL_NEITHER);
 }

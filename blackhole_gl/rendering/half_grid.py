@@ -38,6 +38,11 @@ _WIDE_PX = 16.0
 # What stands in the texture of chosen cells, of 255.
 _CLEAR, _NOT_CLEAR = 128, 255
 
+# Of its cells, those along a side of one of the coarse grid's.
+_ALONG = REFINE_STEP // HALF_STEP
+
+_WHOLE = np.ones((_ALONG, _ALONG), np.uint8)
+
 # Rows of these cells whose pixels are drawn at a time.
 _BAND = 32
 
@@ -88,6 +93,7 @@ class HalfGrid:
         self._into: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
         self.cells = np.empty((0, 0), np.float32)
         self._rays = 0  # of the last picture
+        self._chosen = np.empty((0, 0), bool)  # of the coarse grid's cells
 
     def choose(
         self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"], *, first: bool = False
@@ -107,7 +113,7 @@ class HalfGrid:
         made = self._targets(inputs.size, count)
         chosen = np.where(together & things, _NOT_CLEAR, np.where(together, _CLEAR, 0)).astype(np.uint8)
         made.chosen.write(chosen.tobytes(), alignment=1)
-        self._rays = int(with_rays) * (REFINE_STEP // HALF_STEP) ** 2
+        self._rays, self._chosen = int(with_rays) * _ALONG**2, together
         made.rays.frame.clear()
         marks = self._programs.get("refine_half_marks.frag", inputs)
         marks.sample({"chosen": made.chosen})
@@ -125,11 +131,13 @@ class HalfGrid:
         with drawn(self._ctx, rays, where):
             rays.draw()
 
-    def judge(self, inputs: FrameInputs, cell_classes: moderngl.Texture, reached: Reached | None, narrow: int) -> None:
+    def judge(
+        self, inputs: FrameInputs, held: Float[np.ndarray, "rows columns"], cell_classes: moderngl.Texture, reached: Reached | None, narrow: int
+    ) -> None:
         """Tells which pixels are interpolated, and sorts all that had rays of their own by what they still need.
 
         Args:
-            cell_classes: of the coarse grid's cells.
+            held, cell_classes: depth by what the pixels of each of the coarse grid's cells need, here and in R8.
             reached: what these may show; None in a scene without things.
             narrow: a bit for each of its balls that may be seen narrower than two pixels (`narrow_balls`).
         """
@@ -139,9 +147,11 @@ class HalfGrid:
         cells.set(refine_tolerance=tolerances(inputs), refine_px=inputs.plan.refine_px)
         if cells.takes("narrow_balls"):
             cells.set(narrow_balls=narrow)
-        made.cells.frame.use()
-        cells.draw()
         texture = made.cells.texture
+        left = np.where(OWN_RAYS.holds(held) | OPEN_THINGS.holds(held), held, PixelClass.NEITHER.depth)
+        texture.write(np.kron(np.rint(255.0 * left).astype(np.uint8), _WHOLE)[: texture.height, : texture.width].tobytes(), alignment=1)
+        made.cells.frame.use()
+        cells.draw_boxes(bands_of(self._chosen, texture.size, _ALONG, _BAND // _ALONG))
         self.cells = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width) * np.float32(1.0 / 255.0)
         sort = self._programs.get("refine_classes.frag", inputs)
         sort.sample({"cell_classes": texture})
@@ -152,7 +162,7 @@ class HalfGrid:
     def fill(self, inputs: FrameInputs, textures: Sequence[moderngl.Texture]) -> None:
         """Writes what is interpolated into `textures`, of the picture's size."""
         fill = self._programs.get("refine_half_fill.frag", inputs)
-        fill.sample(self._hits)
+        fill.sample({**self._hits, "half_cells": self._made.cells.texture})
         self.trace_own_rays(fill, textures, MATTER)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:

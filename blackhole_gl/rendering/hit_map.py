@@ -325,7 +325,7 @@ class HitMap:
                 self._bind_tables(draw)
                 self._half.trace(draw, where)
             narrow = half_grid.narrow_balls(rays.inputs, self._met.balls, self._met.bodies)
-            self._half.judge(rays.inputs, self._grid.cell_classes, self.known, narrow)
+            self._half.judge(rays.inputs, self._grid.cells, self._grid.cell_classes, self.known, narrow)
             self._half.fill(rays.inputs, self.textures)
         for draw, where, textures, _ in drawn:
             self._bind_tables(draw)

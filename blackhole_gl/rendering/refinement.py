@@ -129,9 +129,14 @@ class CoarseGrid:
 
     def cells_that_are(self, where: Where) -> np.ndarray:
         """The cells whose pixels are `where`, bool (rows, columns): right after `trace`."""
+        return where.holds(self.cells)
+
+    @property
+    def cells(self) -> np.ndarray:
+        """Depth by what the pixels of each cell need, float32 (rows, columns): right after `trace`."""
         if self._cells is None:
             raise RuntimeError("what cells need is known right after `trace` alone")
-        return where.holds(self._cells)
+        return self._cells
 
     @property
     def cell_classes(self) -> moderngl.Texture:

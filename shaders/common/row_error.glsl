@@ -9,6 +9,12 @@ vec3 row_error(vec3 node[4]) {
     return (OF_THIRD + OF_FOURTH * length(third) / max(length(second), 1e-12)) * third + OF_SECOND * second;
 }
 
+// What the polynomial through all six nodes of a row has halfway between its middle two beyond the cubic through the middle four, both of which take the means of the middle
+// pair, of the pair about it and of the outermost.
+vec3 beyond_cubic(vec3 mean, vec3 about, vec3 outermost) {
+    return 3.0 / 128.0 * (2.0 * mean - 3.0 * about + outermost);
+}
+
 // How far in pixels what is seen moves for errors of rows and of columns: what of them lies along the surface, which changes by `right` and `up` from pixel to pixel.
 float displacement(vec3 right, vec3 up, vec3 of_row, vec3 of_column) {
     float xx = dot(right, right), xy = dot(right, up), yy = dot(up, up), inverse = 1.0 / max(xx * yy - xy * xy, 1e-30);
