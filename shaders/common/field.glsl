@@ -2,7 +2,7 @@
 // beyond it. There is no hole: nothing is captured, and spin means nothing. A model gives
 //     vec3 field_acceleration(vec3 x, vec3 v)   f; x in r_s, v = dx/dσ. It is asked for a step's length beyond the sphere too
 // FIELD_SPEED: names a function float (vec3 x), |v| of a ray that begins or enters at x; without it 1
-// FIELD_LENGTH: names a function float (vec3 x), how long a step may be at x where the plan's is for where the field changes fastest, or at 3 r_s from its centre,
+// FIELD_LENGTH: names a function float (vec3 x, vec3 v), how long a step may be at x where the plan's is for where the field changes fastest, or at 3 r_s from its centre,
 //     over that; without it 1. It is smooth, so that neighbours take like steps
 // FIELD_ENERGY: names a function float (vec3 x, vec3 v) that is the same all along a ray, for the view of conserved quantities
 //
@@ -138,7 +138,7 @@ float ray_plain_step(Orbit orbit, State s) {
 #define RAY_SCALED_STEP field_scaled_step
 float field_scaled_step(Orbit orbit, State s) {
 #ifdef FIELD_LENGTH
-    return ray_plain_step(orbit, s) * FIELD_LENGTH(s.x);
+    return ray_plain_step(orbit, s) * FIELD_LENGTH(s.x, s.v);
 #else
     return ray_plain_step(orbit, s);
 #endif

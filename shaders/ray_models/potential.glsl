@@ -57,7 +57,7 @@ vec3 field_acceleration(vec3 x, vec3 v) {
 }
 
 #define FIELD_LENGTH field_length
-float field_length(vec3 x) {
+float field_length(vec3 x, vec3 v) {
     return max(softened(from_centre(x)), 0.2) / 3.0;
 }
 

@@ -28,15 +28,19 @@ index = { default = 2.0, range = [1.0, 10.0], help = "n in the middle of the fis
 #include "common/waves.glsl"
 
 #if RAYS_REFRACTION_MEDIUM_EXPLOSION
-// n² = 1 + strength/(1 + u²)², with u how many widths x is from a shell whose radius wanders.
-vec4 refraction(vec3 x) {
+// How many widths x is from a shell whose radius wanders, u, behind its gradient.
+vec4 from_shell(vec3 x) {
     float smoothing = 0.1 * rays_refraction_size;
     float r = sqrt(dot(x, x) + smoothing * smoothing);
     vec4 wandering = rays_refraction_size * rays_refraction_raggedness * waves(x / rays_refraction_grain);
-    float u = (r - rays_refraction_size - wandering.w) / rays_refraction_width;
-    float bell = 1.0 / (1.0 + u * u);
-    vec3 across = (x / r - wandering.xyz / rays_refraction_grain) / rays_refraction_width;
-    return vec4((-2.0 * rays_refraction_strength * u * bell * bell * bell) * across, 1.0 + rays_refraction_strength * bell * bell);
+    return vec4(x / r - wandering.xyz / rays_refraction_grain, r - rays_refraction_size - wandering.w) / rays_refraction_width;
+}
+
+// n² = 1 + strength/(1 + u²)²
+vec4 refraction(vec3 x) {
+    vec4 shell = from_shell(x);
+    float bell = 1.0 / (1.0 + shell.w * shell.w);
+    return vec4((-2.0 * rays_refraction_strength * shell.w * bell * bell * bell) * shell.xyz, 1.0 + rays_refraction_strength * bell * bell);
 }
 #elif RAYS_REFRACTION_MEDIUM_MIRAGE
 // n² = 1 − ½ strength (1 − z/√(z² + size²))
@@ -70,11 +74,13 @@ vec3 field_acceleration(vec3 x, vec3 v) {
 }
 
 #if RAYS_REFRACTION_MEDIUM_EXPLOSION
-// 1 as far as the shell wanders, and as many more as x is widths away from there.
+// Shorter through the shell than along it, and growing with the distance from it: more on the way out, as a step that comes in again has to begin before the shell does.
 #define FIELD_LENGTH field_length
-float field_length(vec3 x) {
-    float beside = abs(length(x) - rays_refraction_size) - rays_refraction_size * rays_refraction_raggedness;
-    return 1.0 + max(beside, 0.0) / rays_refraction_width;
+float field_length(vec3 x, vec3 v) {
+    vec4 shell = from_shell(x);
+    float through = rays_refraction_width * dot(shell.xyz, v) / length(v);
+    float outwards = clamp(shell.w < 0.0 ? -through : through, -1.0, 1.0);
+    return 0.75 * (1.0 + (1.0 + 0.4 * outwards) * max(abs(shell.w) - 0.25, 0.0)) * inversesqrt(0.5 + 0.5 * min(through * through, 2.0));
 }
 #endif
 
