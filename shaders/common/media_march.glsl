@@ -168,24 +168,26 @@ bool is_near_disk(vec3 y) {
 #endif
 
 // On through empty space, to where the next step, no longer than it is to the nearest medium, leads into one, or to where the ray is over. Steps go farther than that
-// where what is known at both ends says that nothing lies between (Keinert et al. 2014): most of all where the ray goes away from what is nearest.
+// where what is known at both ends says that nothing lies between (Keinert et al. 2014): most of all where the ray goes away from what is nearest. They are of the parameter
+// of the march, by the speed that the ray has where they begin: outwards it may gain so much that one leads beyond all media, and is taken anew, as much shorter.
 void cross_gap(Orbit orbit, inout State s, inout Here here, vec3 end, inout int stretch, inout bool meets_disk, inout bool over) {
     bool outside = here.within == 0;
-    float farther = 0.0;
+    float farther = 0.0, share = 1.0;
     for (int i = 0; i < MOST_STEPS_ON; ++i) {
         if (!outside || over) break;
         float close = here.edge + here.fine;
         float most = min(plan_medium_step * length(here.x), max(distance(here.x, end), here.fine));
-        here.step = min(close, most);
-        float h = min(min(max(farther, close), most) / here.speed, ray_plain_step(orbit, s));
+        here.step = share * min(close, most);
+        float h = min(max(min(farther, most), here.step) / here.speed, ray_plain_step(orbit, s));
         State next = march_step(orbit, s, h);
         Path path = ray_path(orbit, next);
         vec3 x = path_point(path), velocity = path_velocity(path);
         LOOK_BACK(path_delay(path));
         vec2 room = room_at(x);
         float chord = distance(x, here.x);
-        bool unsure = farther > close && here.edge + room.x < 1.05 * chord;
+        bool unsure = chord > 1.05 * close && here.edge + room.x < 1.05 * chord;
         outside = unsure || room.x >= 0.0;
+        share = !unsure ? 1.0 : farther > close ? share : share * close / chord;
         farther = unsure ? 0.0 : 1.8 * room.x / max(1.0 - (room.x - here.edge) / max(chord, 1e-20), 0.1);
         if (outside && !unsure) {
 #if ORDERS > 0
