@@ -40,7 +40,8 @@ void add_place(inout Here here, inout int bit, float off, float scale) {
     here.within ^= off < 0.0 ? bit : 0;
     here.edge = min(here.edge, abs(off));
     here.fine = min(here.fine, fine_share * scale);
-    here.step = min(here.step, off < 0.0 ? plan_medium_step * scale : off + fine_share * scale);
+    // Up to another medium no farther than it is, though the ray may gain speed on the way: of Mino time that many r_s lead beyond all.
+    here.step = min(here.step, off < 0.0 ? plan_medium_step * scale : off / (1.0 + off / length(here.x)) + fine_share * scale);
     bit = bit >= (1 << 30) ? 1 : 2 * bit;
 }
 
