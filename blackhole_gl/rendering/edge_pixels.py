@@ -3,6 +3,7 @@ lie at the rim of a field's sphere."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import reduce
 
 import moderngl
@@ -25,6 +26,15 @@ _SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
 _SEEN_THROUGH_VEIL_AT_CORNERS = np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
 
 
+@dataclass(frozen=True, eq=False)
+class _Looked:
+    """The marks, uint16 (height, width), of the part `box` of a map of that `generation`."""
+
+    generation: int
+    marks: np.ndarray
+    box: Box
+
+
 class EdgePixels:
     """Finds them.
 
@@ -36,6 +46,13 @@ class EdgePixels:
         self._ctx, self._programs, self._sorting = ctx, programs, sorting
         self._own: Target | None = None
         self._classes: moderngl.Texture | None = None  # that it draws by
+        self._looked: _Looked | None = None
+
+    def look(self, inputs: FrameInputs, hit_map: HitMap) -> None:
+        """Brings what `find` asks of a map that is not sharp to the host, so that there is no more to wait for. Waits for the GPU."""
+        if hit_map.classes is not None:
+            target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
+            self._looked = _Looked(hit_map.generation, _marks_in(target, box), box)
 
     def find(self, inputs: FrameInputs, hit_map: HitMap, *, outlines: bool = True, within: Box | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
@@ -54,10 +71,12 @@ class EdgePixels:
     def _find(self, inputs: FrameInputs, hit_map: HitMap, outlines: bool, part: Box) -> tuple[np.ndarray, np.ndarray]:
         """As `find`, in that `part` of a sharp map alone."""
         if hit_map.classes is None:
-            target, box = self._sorting.of(inputs, hit_map).marks, part
+            marks, box = _marks_in(self._sorting.of(inputs, hit_map).marks, part), part
         else:
-            target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
-        marks = np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
+            if self._looked is None or self._looked.generation != hit_map.generation:
+                self.look(inputs, hit_map)
+            assert self._looked is not None
+            marks, box = self._looked.marks, self._looked.box
         pixels = at_edges(marks, corners=inputs.plan.is_inside)
         if not inputs.plan.meetings:
             return pixels + box[:2], np.zeros(len(pixels), bool)
@@ -73,7 +92,7 @@ class EdgePixels:
         """Gives the GL objects back."""
         if self._own is not None:
             self._own.release()
-        self._own = self._classes = None
+        self._own = self._classes = self._looked = None
 
     def _marks_of_own_rays(self, inputs: FrameInputs, hit_map: HitMap, classes: moderngl.Texture) -> tuple[Target, Box]:
         """Of a map that is not sharp, whose pixels without a ray of their own lie nowhere near an edge; and the part of the picture that holds all others."""
@@ -93,6 +112,10 @@ class EdgePixels:
             with drawn(self._ctx, marks, where):
                 marks.draw_boxes(hit_map.bands(where))
         return self._own, box
+
+
+def _marks_in(target: Target, box: Box) -> np.ndarray:
+    return np.frombuffer(target.frame.read(box, 2, alignment=1), "<u2").reshape(box[3], box[2])
 
 
 def at_edges(marks: np.ndarray, *, corners: bool = False) -> np.ndarray:

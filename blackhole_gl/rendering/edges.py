@@ -23,7 +23,7 @@ from .shading import ShadePass
 from .sorting import PixelSorting, hides
 from .squares import TOGETHER, Squares
 from .tables import Tables
-from .target import Target
+from .target import Target, plain_texture
 from .temperatures import TemperatureProfile
 
 # Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame; and of a pixel that stands for more than `_COARSE` of the
@@ -57,12 +57,18 @@ class EdgeRays:
         self._find = EdgePixels(ctx, programs, sorting)
         self._map = HitMap(ctx, programs, tables)
         self._shade = ShadePass(ctx, programs, tables, temperatures)
+        self._elsewhere = Target.of(ctx, [plain_texture(ctx, (1, 1), 1, "f1")])  # llvmpipe begins a picture when another is asked for
         self._places: _Places | None = None
         self._texture: moderngl.Texture | None = None
         self._held: EdgeBlocks | None = None
         self._blocks: RayBlocks | None = None
         self._radiance: Target | None = None
         self._key: tuple | None = None
+
+    def look(self, inputs: FrameInputs, hit_map: HitMap) -> None:
+        """To come before a map that is not sharp is shaded, and `draw` after: pixels at edges are then sought while the GPU shades."""
+        if inputs.plan.scene.rays.edges > 1 and not hit_map.is_sharp and (self._key is None or self._key[0] != hit_map.generation):
+            self._find.look(inputs, hit_map)
 
     @property
     def pixels(self) -> np.ndarray:
@@ -76,6 +82,8 @@ class EdgeRays:
             motion: where anything moves fewer rays will do, as for every map that is not sharp; and where the camera does, one at plain outlines of things.
             media: those that are marched apart from the rest, if any are.
         """
+        if not hit_map.is_sharp:
+            self._elsewhere.frame.clear()
         self.trace(inputs, hit_map, motion=motion)
         if self._blocks is None or self._radiance is None or self._places is None:
             return
@@ -118,6 +126,7 @@ class EdgeRays:
         self._find.release()
         self._map.release()
         self._shade.release()
+        self._elsewhere.release()
         for item in (self._texture, self._radiance, self._places):
             if item is not None:
                 item.release()

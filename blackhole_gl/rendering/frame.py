@@ -441,9 +441,11 @@ class Renderer:
 
     def _shaded_with_edges(self, inputs: FrameInputs, media: MediaApart | None = None, motion: Motion = Motion.NOTHING) -> Target:
         """The same of the own hit map, with several rays in the pixels at edges."""
+        if diagnostics.is_on(inputs.plan.scene):
+            return self._shaded(inputs, self.hit_map, media)
+        self.edges.look(inputs, self.hit_map)
         radiance = self._shaded(inputs, self.hit_map, media)
-        if not diagnostics.is_on(inputs.plan.scene):
-            self.edges.draw(inputs, self.hit_map, radiance, motion=motion, media=media)
+        self.edges.draw(inputs, self.hit_map, radiance, motion=motion, media=media)
         return radiance
 
     def _fit_view(self, plan: Plan, size: tuple[int, int]) -> None:
