@@ -9,6 +9,7 @@
 #include "common/reach_node.glsl"
 
 uniform usampler2D nodes;
+uniform ivec2 reach_first; // texel of the first
 uniform int reach_count; // balls
 #if REACH_FINER
 uniform sampler2D found_first;
@@ -20,11 +21,11 @@ layout(location = 1) out uint balls;
 
 void main() {
     ivec2 first = ivec2(gl_FragCoord.xy);
-    uvec2 corner = texelFetch(nodes, first, 0).rg;
+    uvec2 corner = texelFetch(nodes, reach_first + first, 0).rg;
     uint holds = node_reached(corner).holds, near_any = 0u, between = 0u;
     bool alike = true, hides = holds > 0u;
     for (int k = 0; k < 4; ++k) {
-        uvec2 node = texelFetch(nodes, first + ivec2(k % 2, k / 2), 0).rg;
+        uvec2 node = texelFetch(nodes, reach_first + first + ivec2(k % 2, k / 2), 0).rg;
         Reached reached = node_reached(node);
         near_any |= reached.near;
         between |= reached.between;

@@ -17,6 +17,7 @@
 
 uniform int reach_steps;
 uniform float reach_step; // pixels from ray to ray
+uniform vec2 reach_first; // texel of the first
 
 out uvec2 node;
 
@@ -56,7 +57,7 @@ float part_at(Orbit orbit, March m, Path a, Path b, float radius, out Spot spot)
 }
 
 void main() {
-    vec2 pixel = reach_step * (gl_FragCoord.xy - 0.5) + 0.5;
+    vec2 pixel = reach_step * (gl_FragCoord.xy - reach_first - 0.5) + 0.5;
     RayStart start = ray_start(pixel_direction(pixel));
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);

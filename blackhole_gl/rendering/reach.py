@@ -12,6 +12,7 @@ from ..physics import motion
 from ..planning import REACH_STEP, REFINE_STEP, Plan
 from ..scene import met
 from ..shapes import Bool, Float, Int
+from .boxes import Box
 from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
 from .programs import Programs
@@ -43,6 +44,9 @@ _NOT_LINEAR, _BY_ITSELF = 0.3, 1.0
 
 # What is held against where nothing has a size.
 _NOWHERE = np.array([(1e9, 0.0, 0.0, 0.0)])
+
+# Side of the tiles that llvmpipe's threads take one after another, in texels.
+_TILE = 64
 
 FINER = {"REACH_FINER": 1}
 """The switch of the program that tells of cells what is first told of squares."""
@@ -77,22 +81,27 @@ class _Level:
     """Nodes, and for each cell between them what it may show, R8 and R32UI.
 
     Attributes:
+        box: where the nodes lie in their texture: of the first level, of which there are few, so that llvmpipe's tiles part them in halves.
         depth: of the nodes, by which they are drawn.
         marks: draws into `depth`.
     """
 
+    box: Box
     nodes: Target
     cells: Target
     depth: moderngl.Texture
     marks: moderngl.Framebuffer
 
     @classmethod
-    def of(cls, ctx: moderngl.Context, size: tuple[int, int], step: int) -> _Level:
-        """Nodes `step` pixels apart, for a picture of `size`."""
+    def of(cls, ctx: moderngl.Context, size: tuple[int, int], step: int, *, first: bool) -> _Level:
+        """Nodes `step` pixels apart, for a picture of `size`; of the `first` level or another."""
         cells = -(-size[0] // step), -(-size[1] // step)
-        nodes = cells[0] + 1, cells[1] + 1
+        columns, rows = cells[0] + 1, cells[1] + 1
+        x, y = (_first_texel(columns), _first_texel(rows)) if first else (0, 0)
+        nodes = x + columns, y + rows
         depth = ctx.depth_texture(nodes)
         return cls(
+            box=(x, y, columns, rows),
             nodes=Target.of(ctx, [plain_texture(ctx, nodes, 2, "u4")], depth),
             cells=Target.of(ctx, [plain_texture(ctx, cells, 1, "f1"), plain_texture(ctx, cells, 1, "u4")]),
             depth=depth,
@@ -160,12 +169,12 @@ class Reach:
             if found:
                 self._mark(inputs, level, found[0])
             self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), table)
-            nodes.set(reach_step=float(step))
+            nodes.set(reach_step=float(step), reach_first=tuple(map(float, level.box[:2])))
             frame = level.nodes.frame
             frame.use()
             frame.depth_mask = False
             with drawn(self._ctx, nodes, _MARKED if found else EVERYWHERE):
-                nodes.draw()
+                nodes.draw_boxes([level.box])
             self._judge(inputs, level, found, len(few))
             found = level.cells.textures
         cells, cell_balls = made.levels[REFINE_STEP].cells.textures
@@ -186,7 +195,7 @@ class Reach:
         """Tells of the cells between the level's nodes what they may show of `count` balls."""
         cells = self._programs.get("reach_cells.frag", inputs, FINER if found_first else {})
         cells.sample({"nodes": level.nodes.texture, **dict(zip(("found_first", "balls_first"), found_first))})
-        cells.set(reach_count=count)
+        cells.set(reach_count=count, reach_first=level.box[:2])
         level.cells.frame.use()
         cells.draw()
 
@@ -208,7 +217,7 @@ class Reach:
         if self._made is None or self._made.size != size:
             if self._made is not None:
                 self._made.release()
-            self._made = _Made(size, {step: _Level.of(self._ctx, size, step) for step in steps(size[1])})
+            self._made = _Made(size, {step: _Level.of(self._ctx, size, step, first=k == 0) for k, step in enumerate(steps(size[1]))})
         return self._made
 
     def _table(self, balls: Float[np.ndarray, "balls 4"], numbers: Int[np.ndarray, " balls"], fills: Bool[np.ndarray, " balls"]) -> moderngl.Texture:
@@ -231,6 +240,11 @@ def steps(height: int) -> list[int]:
     while found[-1] > REFINE_STEP:
         found.append(found[-1] // 2)
     return found
+
+
+def _first_texel(count: int) -> int:
+    """Where the first of so many nodes in a row is to lie, so that a tile ends in their middle if they fit into two; even, as quads stay together."""
+    return (_TILE - count // 2) // 2 * 2 if count <= 2 * _TILE else 0
 
 
 def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
