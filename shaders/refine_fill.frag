@@ -17,6 +17,6 @@ void main() {
     met.xyz += weight.x * textureLod(bend_x, place, 0.0).xyz + weight.y * textureLod(bend_y, place, 0.0).xyz;
     Hits hits = no_hits(0.0);
     hits.fate = MET;
-    hits.meeting[0] = unpacked_meeting(met, textureLod(things_way, place, 0.0));
+    hits.meeting[0] = unpacked_meeting(met, textureLod(things_way, place, 0.0), vec3(0.0) AND_TIME(0.0));
     store_hits(hits);
 }

@@ -4,7 +4,10 @@
 //
 // Interpolated is where the rays at the corners and those around meet the same or go the same way, and where what is left out (common/row_error.glsl) displaces what is
 // seen by less than refine_px, or light's direction by less than the angle of as many pixels: where a field crowds much of the sky into a pixel, the former. Where six in a
-// row go the same way, all of them count; at an outline three will do, but of a thing with many parts (common/half_ways.glsl).
+// row go the same way, all of them count; at an outline three will do (common/half_ways.glsl).
+//
+// What tells_apart is looked for again along the ray when it is shaded, from the part that a corner has met: places on it matter across the ray alone. Rays end alike on it
+// where their parts lie side by side, and not one before the other; there an outline may be displaced in motion.
 #defines
 #include "common/constants.glsl"
 
@@ -20,16 +23,25 @@ uniform sampler2D half0;         // of the rays: hits, as traced
 uniform vec2 refine_tolerance;   // refine_nodes.frag
 uniform float refine_px;
 #if MEETINGS
-uniform sampler2D half_met;
+uniform sampler2D half_met, half_way;
 uniform usampler2D cell_balls;   // reach_cells.frag
 uniform uint narrow_balls;       // those that may be seen narrower than the rays are apart
 #endif
 
 out float class_out;
 
-// What a ray ends on, more than 0, or its fate, negative; 0 of a ray that ends nowhere. And where: a place, or a direction.
-int end_of(ivec2 node, out vec3 place) {
+// Whether rays end on what has many parts.
+bool has_parts(int what) {
+#if MEETINGS
+#each thing_told_apart : if (what > 0 && (what & 31) == THING_$KEY + 1) return true;
+#endif
+    return false;
+}
+
+// What a ray ends on, more than 0, or its fate, negative; 0 of a ray that ends nowhere. And where: a place, with the normal of what has parts, or a direction.
+int end_of(ivec2 node, out vec3 place, out vec3 facing) {
     vec4 escape = texelFetch(half0, node, 0);
+    facing = escape.xyz * inversesqrt(max(dot(escape.xyz, escape.xyz), 1e-20));
 #if MEETINGS
     vec4 met = texelFetch(half_met, node, 0);
     place = met.w > 0.0 ? met.xyz : escape.xyz;
@@ -63,12 +75,25 @@ bool is_there(ivec2 node) {
     return node == clamp(node, ivec2(0), textureSize(half0, 0) - 1);
 }
 
-Row row_from(ivec2 first, ivec2 step, int what) {
+// Whether places on what has parts lie side by side: either's part leads on to the other, in a step that is not much longer than what of it lies across the rays.
+bool lie_together(vec3 apart, vec3 one_facing, vec3 other_facing, vec3 along) {
+    const float BENT = 0.6, BEYOND = 2.0, MOST_SLANT = 5.0;
+    float onward = dot(apart, along), away2 = dot(apart, apart), aside2 = away2 - onward * onward;
+    float off = max(abs(dot(one_facing, apart)), abs(dot(other_facing, apart)));
+    return off * off <= min(BENT * BENT * away2, BEYOND * BEYOND * aside2) && away2 <= MOST_SLANT * MOST_SLANT * aside2;
+}
+
+Row row_from(ivec2 first, ivec2 step, int what, bool of_parts, vec3 along) {
     Row row;
     row.alike = 0;
+    vec3 facing[6];
     for (int k = 0; k < 6; ++k) {
         ivec2 node = first + k * step;
-        if (end_of(node, row.place[k]) == what && (k > 0 && k < 5 || is_there(node))) row.alike |= 1 << k;
+        if (end_of(node, row.place[k], facing[k]) == what && (k > 0 && k < 5 || is_there(node))) row.alike |= 1 << k;
+    }
+    if (of_parts) {
+        for (int k = 1; k < 4; ++k)
+            if (!lie_together(row.place[k + 1] - row.place[k], facing[k], facing[k + 1], along)) row.alike &= ~(k == 1 ? FIRST : k == 3 ? LAST : MIDDLE);
     }
     return row;
 }
@@ -85,9 +110,9 @@ int way_along(int alike) {
 // that comes in between two rays.
 bool is_wide_beyond(ivec2 first, ivec2 step, int what) {
     bool other[6];
-    vec3 place;
+    vec3 place, facing;
     for (int k = 0; k < 6; ++k)
-        other[k] = end_of(first + k * step, place) != what;
+        other[k] = end_of(first + k * step, place, facing) != what;
     return other[2] && other[1] && (other[0] || other[3]) || other[3] && other[4] && (other[5] || other[2]);
 }
 
@@ -117,51 +142,50 @@ vec3 error_of(Row row, int what, int way, bool by_six) {
 // From pixel to pixel. Where one part of a thing hides another, places jump within the cell, and change little beside it: the least counts.
 vec3 slope_of(Row row, int what, int way) {
     vec3 slope = row.place[3] - row.place[2];
-    if (what > 0 && way != WITHOUT_FIRST) slope = shorter(slope, row.place[2] - row.place[1]);
-    if (what > 0 && way != WITHOUT_LAST) slope = shorter(slope, row.place[4] - row.place[3]);
+    bool may_jump = what > 0 && !has_parts(what);
+    if (may_jump && way != WITHOUT_FIRST) slope = shorter(slope, row.place[2] - row.place[1]);
+    if (may_jump && way != WITHOUT_LAST) slope = shorter(slope, row.place[4] - row.place[3]);
     return 0.5 * slope;
 }
 
-// Whether rays end on what has many parts.
-bool has_parts(int what) {
-#if MEETINGS
-#each thing_told_apart : if (what > 0 && (what & 31) == THING_$KEY + 1) return true;
-#endif
-    return false;
-}
-
-// How far from its surface a place on a thing may be, r_s: of those with many parts, which are looked for again near the place when they are shaded, no farther than half
-// a pixel is wide.
-float room_beside(int what, vec3 place) {
-    return has_parts(what) ? 0.5 * refine_tolerance.y / refine_px * distance(place, camera_n.xyz * (0.5 / camera_w)) : 1e30;
+vec3 across(vec3 v, vec3 along) {
+    return v - dot(v, along) * along;
 }
 
 void main() {
     ivec2 pixels = ivec2(gl_FragCoord.xy), cell = pixels / 2, corner = pixels + HALF_MARGIN;
-    vec3 start, error[4];
-    int what = end_of(corner, start);
+    vec3 start, facing, along = vec3(0.0), error[4];
+    int what = end_of(corner, start, facing);
+    bool of_parts = has_parts(what);
+#if MEETINGS
+    if (of_parts) {
+        vec4 way = texelFetch(half_way, corner, 0);
+        float r = length(start);
+        along = normalize((0.5 / r) * way.xyz - (way.w / r) * start);
+    }
+#endif
     Row rows[4];
     for (int k = 0; k < 4; ++k) {
         ivec2 onward = k < 2 ? ivec2(1, 0) : ivec2(0, 1);
-        rows[k] = row_from(corner + (k & 1) * onward.yx - 2 * onward, onward, what);
+        rows[k] = row_from(corner + (k & 1) * onward.yx - 2 * onward, onward, what, of_parts, along);
     }
     int along_x = way_along(rows[0].alike & rows[1].alike), along_y = way_along(rows[2].alike & rows[3].alike);
     bool by_six = what < 0 && (rows[0].alike & rows[1].alike & rows[2].alike & rows[3].alike) == ALL_SIX;
 #if MEETINGS
-    bool alike = what != 0 && min(along_x, along_y) >= 0 && (max(along_x, along_y) == BY_FOUR || !has_parts(what)) && are_sides_wide(corner, along_x, along_y, what);
+    bool alike = what != 0 && min(along_x, along_y) >= 0 && (of_parts || are_sides_wide(corner, along_x, along_y, what));
 #else
     bool alike = what != 0 && along_x == BY_FOUR && along_y == BY_FOUR;
 #endif
     for (int k = 0; k < 4; ++k)
-        error[k] = error_of(rows[k], what, k < 2 ? along_x : along_y, by_six);
-    vec3 right = 0.5 * (slope_of(rows[0], what, along_x) + slope_of(rows[1], what, along_x));
-    vec3 up = 0.5 * (slope_of(rows[2], what, along_y) + slope_of(rows[3], what, along_y));
+        error[k] = across(error_of(rows[k], what, k < 2 ? along_x : along_y, by_six), along);
+    vec3 right = 0.5 * across(slope_of(rows[0], what, along_x) + slope_of(rows[1], what, along_x), along);
+    vec3 up = 0.5 * across(slope_of(rows[2], what, along_y) + slope_of(rows[3], what, along_y), along);
     float moved = 0.0, turned = 0.0;
     for (int k = 0; k < 2; ++k) {
         moved = max(moved, displacement(right, up, error[k], error[2 + k]));
         turned = max(turned, length(error[k]) + length(error[2 + k]));
     }
-    bool near = moved < refine_px && turned < room_beside(what, start) || what < 0 && turned < refine_tolerance.x;
+    bool near = moved < refine_px || what < 0 && turned < refine_tolerance.x;
     float may = texelFetch(chosen, cell, 0).r, held = texelFetch(cell_classes, cell, 0).r;
 #if MEETINGS
     bool whole = may < 1.0 || (texelFetch(cell_balls, cell, 0).r & narrow_balls) == 0u;

@@ -54,7 +54,7 @@ void main() {
     if (hits.fate == ESCAPED) hits.direction = normalize(interpolated(half0, place, between, way));
 #if MEETINGS
     float met = texelFetch(half_met, node, 0).w;
-    hits.meeting[0] = unpacked_meeting(vec4(interpolated(half_met, place, between, way), met), textureLod(half_way, place, 0.0) AND_TIME(0.0));
+    hits.meeting[0] = unpacked_meeting(vec4(interpolated(half_met, place, between, way), met), textureLod(half_way, place, 0.0), escape.xyz AND_TIME(0.0));
 #endif
     store_hits(hits);
 }

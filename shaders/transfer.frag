@@ -96,7 +96,7 @@ Sight sight_from_camera(vec2 energy) {
     float pixels = 1.0 / block_side;
 #endif
     vec3 wide = vec3(pixels * picture_scale / camera_w, 0.0, 0.0);
-    return Sight(vec3(0.0), vec3(0.0), energy.x, energy.y, true, Momentum(0.0, vec3(0.0)), wide, wide);
+    return Sight(vec3(0.0), vec3(0.0), energy.x, energy.y, true, -1, Momentum(0.0, vec3(0.0)), wide, wide);
 }
 #endif
 

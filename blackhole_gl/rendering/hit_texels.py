@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..glsl.declared import Fate
 from ..shapes import Bool, Float, Int
 
 Array = np.ndarray
@@ -96,7 +97,8 @@ def unpacked(texels: Sequence[Float[Array, "*rays 4"]], orders: int, meetings: i
     fate, steps = fates_and_steps(first)
     crossing = np.stack([kept[0][..., :2], kept[1][..., :2], kept[1][..., 2:]], axis=-2)
     inbound = (kept[0][..., 3, None].astype(np.int32) >> np.arange(MOST_CROSSINGS) & 1) == 1
-    found = HitArrays(fate, steps, first[..., :3], kept[0][..., 2], crossing, inbound)
+    direction = np.where(fate[..., None] == Fate.ESCAPED, first[..., :3], np.float32(0.0))
+    found = HitArrays(fate, steps, direction, kept[0][..., 2], crossing, inbound)
     if times:
         kept_times = texels[plane + 2 * meetings]
         found = replace(found, delay=np.where(np.any(crossing != 0.0, axis=-1), kept_times[..., :3], np.float32(np.nan)))

@@ -16,6 +16,7 @@ from ..scene.files import MESHES
 from ..scene.instances import Instances
 from ..scene.plug_in import PlugIn
 from ..scene.schema import Field
+from ..shapes import Float, Int
 from . import hierarchy
 from .hierarchy import Hierarchy
 from .mesh_files import Mesh, MeshFiles
@@ -90,7 +91,7 @@ def _made(meshes: list[tuple[str, Mesh]]) -> Meshes:
         tree = hierarchy.build(mesh.corners.min(axis=1).astype(float), mesh.corners.max(axis=1).astype(float), IN_LEAF)
         roots[value] = hierarchy.FIRST + nodes
         trees[value] = _Tree(tree, count)
-        triangles.append(_texels(mesh)[tree.order])
+        triangles.append(_texels(mesh, tree.order, count))
         nodes, count = nodes + len(tree.beyond), count + len(mesh.corners)
     return Meshes(roots, trees, _rows(triangles))
 
@@ -143,13 +144,33 @@ def _joined(trees: list[Hierarchy]) -> Hierarchy:
     return Hierarchy(*(np.concatenate(column) for column in zip(*parts)))
 
 
-def _texels(mesh: Mesh) -> np.ndarray:
-    """float32 (T, TEXELS, 4)."""
+def _texels(mesh: Mesh, order: np.ndarray, first: int) -> np.ndarray:
+    """float32 (T, TEXELS, 4), the triangles in that order, their numbers from `first` on."""
     found = np.zeros((len(mesh.corners), TEXELS, 4), np.float32)
     found[:, 0:3, :3], found[:, 3:6, :3] = mesh.corners, mesh.normals
     found[:, 0:6, 3] = mesh.places.reshape(-1, 6)
     found[:, 6:9, :3] = -1.0 if mesh.colours is None else mesh.colours
-    return found
+    number = np.empty(len(order), int)
+    number[order] = first + np.arange(len(order))
+    beyond = beyond_sides(mesh.corners)
+    found[:, 6:9, 3] = np.where(beyond < 0, -1, number[beyond])
+    return found[order]
+
+
+def beyond_sides(corners: Float[np.ndarray, "T 3 3"]) -> Int[np.ndarray, "T 3"]:
+    """The triangle with which each of these shares the side opposite to each of its `corners`, if it runs the same way round; −1 where there is none.
+
+    Corners are the same where they are in the same place: files have them apart where normals or colours change.
+    """
+    points = corners.reshape(-1, 3)
+    same = np.zeros(len(points), int)
+    for along in points.T:
+        same = np.unique(same * len(points) + np.unique(along, return_inverse=True)[1], return_inverse=True)[1]
+    begin, end = same.reshape(-1, 3)[:, [1, 2, 0]].ravel(), same.reshape(-1, 3)[:, [2, 0, 1]].ravel()
+    sides, back = begin * len(points) + end, end * len(points) + begin
+    order = np.argsort(sides, kind="stable")
+    place = order[np.minimum(np.searchsorted(sides[order], back), len(sides) - 1)] if len(sides) else order
+    return np.where((sides[place] == back) & (begin != end), place // 3, -1).reshape(-1, 3)
 
 
 def _rows(triangles: list[np.ndarray]) -> np.ndarray:

@@ -121,7 +121,8 @@ Hits stored_hits(ivec2 pixel) {
 #if ORDERS > 1
     t2 = texel_of(hits2, pixel);
 #endif
-    Hits hits = unpacked_hits(texel_of(hits0, pixel), t1, t2);
+    vec4 t0 = texel_of(hits0, pixel);
+    Hits hits = unpacked_hits(t0, t1, t2);
 #if RAYS_LIGHT_TRAVEL
     vec4 delays = texel_of(times, pixel);
     hits.delay = delays.xyz;  // of two meetings' the third is none of a crossing, and there is no such crossing
@@ -130,10 +131,10 @@ Hits stored_hits(ivec2 pixel) {
     if ((cell & CELL_WITHOUT_THINGS) != 0u) return hits;
 #endif
 #if MEETINGS
-    hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel) AND_TIME(delays.w));
+    hits.meeting[0] = unpacked_meeting(texel_of(met0, pixel), texel_of(way0, pixel), MEETINGS == 1 && hits.fate == MET ? t0.xyz : vec3(0.0) AND_TIME(delays.w));
 #endif
 #if MEETINGS > 1
-    hits.meeting[1] = unpacked_meeting(texel_of(met1, pixel), texel_of(way1, pixel) AND_TIME(delays.z));
+    hits.meeting[1] = unpacked_meeting(texel_of(met1, pixel), texel_of(way1, pixel), vec3(0.0) AND_TIME(delays.z));
 #endif
     return hits;
 }

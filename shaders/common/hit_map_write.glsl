@@ -106,7 +106,7 @@ vec2 covariant_momentum(vec2 point, Momentum momentum) {
 
 void store_hits(Hits traced) {
     Hits hits = only_finite(traced);
-    hits0_out = escape_texel(hits.direction, hits.fate, hits.steps);
+    hits0_out = escape_texel(note_of(hits), hits.fate, hits.steps);
 #if ORDERS > 0
 #if POST_VIEW_CONSERVATION
     float rest = is_finite(vec3(march_drift)) ? march_drift : 1.0;

@@ -1,6 +1,6 @@
 // How hits lie in texels: the one place that knows. On the host, blackhole_gl/rendering/hit_texels.py.
 //
-//   hits0   direction, 4·steps + fate
+//   hits0   direction, 4·steps + fate; with one of MEETINGS the note of what ends the ray in place of the direction
 //   hits1   crossing 0, λ, inbound (for the view of conserved quantities the drift)  with ORDERS > 0
 //   hits2   crossings 1 and 2                                                       with ORDERS > 1
 //   met0, way0, …   place in r_s and what is met there; w_rate and n_rate of the momentum      a pair for each of MEETINGS
@@ -32,13 +32,21 @@ float texel_steps(vec4 t0) {
 Hits unpacked_hits(vec4 t0, vec4 t1, vec4 t2) {
     Hits hits = no_hits(t1.z);
     hits.fate = texel_fate(t0);
-    hits.direction = t0.xyz;
+    hits.direction = hits.fate == ESCAPED ? t0.xyz : vec3(0.0);
     hits.steps = int(t0.w + 0.5) >> 2;
     hits.crossing = vec2[3](t1.xy, t2.xy, t2.zw);
 #if !POST_VIEW_CONSERVATION
     hits.inbound = int(t1.w + 0.5);
 #endif
     return hits;
+}
+
+// What stands in place of the direction of a ray that ends on a thing.
+vec3 note_of(Hits hits) {
+#if MEETINGS == 1
+    if (hits.fate == MET) return hits.meeting[0].note;
+#endif
+    return hits.direction;
 }
 
 #if MEETINGS
@@ -52,9 +60,9 @@ vec4 way_texel(Meeting meeting) {
     return vec4(meeting.momentum.n_rate, meeting.momentum.w_rate);
 }
 
-Meeting unpacked_meeting(vec4 met, vec4 way AND_TIME(float delay)) {
+Meeting unpacked_meeting(vec4 met, vec4 way, vec3 note AND_TIME(float delay)) {
     int bits = int(met.w + 0.5);
-    return Meeting((bits & 31) - 1, bits >> 8, (bits >> 5) & 3, ((bits >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz) AND_TIME(delay));
+    return Meeting((bits & 31) - 1, bits >> 8, (bits >> 5) & 3, ((bits >> 7) & 1) == 1, met.xyz, Momentum(way.w, way.xyz), note AND_TIME(delay));
 }
 #endif
 

@@ -32,6 +32,7 @@ struct Meeting {
     bool enters;        // from outside into it
     vec3 place;         // r_s
     Momentum momentum;
+    vec3 note;          // of what has parts (tells_apart) and ends the ray: 1 + the number of the part that is met, along its normal; else zero
 #if RAYS_LIGHT_TRAVEL
     float delay;        // as Hits has it
 #endif
@@ -39,7 +40,7 @@ struct Meeting {
 #endif
 
 #if MEETINGS
-const Meeting NO_MEETING = Meeting(-1, 0, 0, false, vec3(0.0), Momentum(0.0, vec3(0.0)) AND_TIME(0.0));
+const Meeting NO_MEETING = Meeting(-1, 0, 0, false, vec3(0.0), Momentum(0.0, vec3(0.0)), vec3(0.0) AND_TIME(0.0));
 #endif
 
 struct Hits {
@@ -110,9 +111,9 @@ void add_crossing(inout Hits hits, vec2 point, Momentum momentum AND_TIME(float 
 
 #if MEETINGS
 // Puts a meeting behind the others. Where there is no room those beyond are dropped, but not one that ends the ray: it takes the last place.
-void add_meeting(inout Hits hits, int kind, int index, bool enters, vec3 place, Momentum momentum AND_TIME(float delay), bool ends) {
+void add_meeting(inout Hits hits, int kind, int index, bool enters, vec3 place, Momentum momentum, vec3 note AND_TIME(float delay), bool ends) {
     int before = (hits.crossing[0] != vec2(0.0) ? 1 : 0) + (hits.crossing[1] != vec2(0.0) ? 1 : 0) + (hits.crossing[2] != vec2(0.0) ? 1 : 0);
-    Meeting meeting = Meeting(kind, index, before, enters, place, momentum AND_TIME(delay));
+    Meeting meeting = Meeting(kind, index, before, enters, place, momentum, note AND_TIME(delay));
     bool kept = false;
     for (int k = 0; k < MEETINGS; ++k) {
         if (!kept && (hits.meeting[k].kind < 0 || ends && k == MEETINGS - 1)) {

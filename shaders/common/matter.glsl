@@ -13,6 +13,7 @@ struct Sight {
     float energy;       // E_observer/E_infinity, as it counts for colours
     float beaming;      // and as it counts for brightness: the same unless parts of the observer's motion are switched off
     bool enters;        // the ray goes into it, traced backwards
+    int part;           // of what tells_apart, that which is met; −1 where that is not known
     Momentum momentum;  // of the ray there
     vec3 right, up;     // change of the place to the next pixel on the right and above
 };
@@ -30,7 +31,7 @@ Sight sight_of(Meeting met, vec2 energy) {
     vec3 aside = normalize(cross(towards, abs(towards.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
     if (dFdx(what) != 0.0) right = picture_scale * away * aside;
     if (dFdy(what) != 0.0) up = picture_scale * away * cross(aside, towards);
-    return Sight(met.place, towards, energy.x, energy.y, met.enters, met.momentum, right, up);
+    return Sight(met.place, towards, energy.x, energy.y, met.enters, int(length(met.note) + 0.5) - 1, met.momentum, right, up);
 }
 
 // E_infinity/E_emitter = 1/(u^t (1 − k_i v^i)) of light that leaves, along the ray, matter of velocity v = dx/dt there (c = 1, x as rays tell it):

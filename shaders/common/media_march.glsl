@@ -81,7 +81,7 @@ Here here_at(Orbit orbit, State s, Sight first, vec3 end, vec3 left, const bool 
     int bit = 1;
 #each medium : for (int i = 0; i < medium_$key_count; ++i) add_place(here, bit, medium_$key_distance(i, here.x), medium_$key_scale(i, here.x));
     if (lit) {
-        Sight sight = Sight(here.x, here.towards, first.energy, first.beaming, true, ray_momentum(orbit, s), first.right, first.up);
+        Sight sight = Sight(here.x, here.towards, first.energy, first.beaming, true, -1, ray_momentum(orbit, s), first.right, first.up);
         float footprint = max(length(sight.right), length(sight.up));
 #each medium : for (int i = 0; i < medium_$key_count; ++i) add_light(here, medium_$key_distance(i, here.x), medium_$key_matter(i, sight), SAMPLES == 1 ? 1.0 : medium_$key_pattern(i, here.x, footprint), MEDIUM_$KEY_BOLOMETRIC == 1, sight.beaming);
         float rate = ray_affine_rate(orbit, s);

@@ -10,8 +10,10 @@
 // Media have the same with medium_<key>_…; inside is negative, and outside positive. A thing whose header says meets = "crossing" tells instead
 //     float thing_<key>_crossing(int i, vec3 x, vec3 y, out bool enters)   the part 0…1 of the straight piece from x to y at which instance i is first
 //                                                 met, and whether it is entered there; 2: not at all
-// and with tells_apart
-//     bool thing_<key>_apart(int i, vec3 x, vec3 y, float stray)   whether a way that strays from that piece by as much misses it for certain
+// and with tells_apart, which is for what is made of many parts
+//     float thing_<key>_crossing(int i, vec3 x, vec3 y, float stray, out bool enters, out int part)   the same, and the number of the part that is met, below
+//                                                 2¹⁸; of a way that strays from the piece by more than 0: 2 where it misses it for certain, else less
+//     vec3 thing_<key>_facing(int i, int part)   the unit normal of that part
 //
 // BALLS_KNOWN: coarse rays have told which balls that things lie in may be met where the ray is (common/reach.glsl): those few are held against it instead of the boxes
 // of all. All things are opaque then.
@@ -43,6 +45,11 @@ bool is_opaque(int kind) {
 bool tells_distance(int kind) {
 #each thing_by_crossing : if (kind_$key(kind)) return false;
     return true;
+}
+
+bool tells_apart(int kind) {
+#each thing_told_apart : if (kind_$key(kind)) return true;
+    return false;
 }
 
 bool is_medium(int kind) {
@@ -122,32 +129,24 @@ float circle_bow(int kind, int index, vec2 delays) {
 #endif
 
 // The part of the piece at which the instance is first met, 0…1; 2: not at all. Where light takes its time the ends of the piece were passed at two times: what moves
-// is met where it was in between, which is as if it stood and the piece led farther.
-float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 delays), out bool enters) {
+// is met where it was in between, which is as if it stood and the piece led farther. `of`: the number of its part. Where the way strays from the piece by more than 0, what
+// tells_apart says whether it is missed for certain (2), and all else that it may be met (0).
+float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 delays), float stray, out bool enters, out int of) {
     float part = 2.0;
     enters = true;
+    of = 0;
 #if RAYS_LIGHT_TRAVEL
     seen_delay = delays.y;
     vec3 there = centre_of(kind, index);
     seen_delay = delays.x;
-    y += centre_of(kind, index) - there;
+    if (stray <= 0.0) y += centre_of(kind, index) - there;
 #endif
 #if MEETINGS_BY_DISTANCE
-    if (tells_distance(kind)) part = traced_part(kind, index, size, x, y, enters);
+    if (tells_distance(kind) && stray <= 0.0) part = traced_part(kind, index, size, x, y, enters);
 #endif
-#each thing_by_crossing : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, enters);
-    return part;
-}
-
-bool tells_apart(int kind) {
-#each thing_told_apart : if (kind_$key(kind)) return true;
-    return false;
-}
-
-// Whether a way that strays from the piece by so much misses the instance for certain.
-bool is_apart(int kind, int index, vec3 x, vec3 y, float stray) {
-#each thing_told_apart : if (kind_$key(kind)) return thing_$key_apart(index, x, y, stray);
-    return false;
+#each thing_not_placed : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, enters);
+#each thing_told_apart : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, stray, enters, of);
+    return tells_apart(kind) || stray <= 0.0 ? part : 0.0;
 }
 
 #if BALLS_KNOWN
@@ -162,18 +161,26 @@ struct Found {
     float at;         // where: part of a piece, or parameter of a curve
     float size;       // half the width of what was found, r_s
     bool enters;
+    int part;         // of what tells_apart
 #if BALLS_KNOWN
     vec3 place;       // on the piece that has met it
 #endif
 };
 
-const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true AND_PLACE(vec3(0.0)));
+const Found NOTHING_FOUND = Found(MEETING_NONE, 0, 2.0, 0.0, true, 0 AND_PLACE(vec3(0.0)));
+
+// Meeting has it.
+vec3 note_on(Found found) {
+    vec3 note = vec3(0.0);
+#each thing_told_apart : if (kind_$key(found.kind)) note = float(found.part + 1) * thing_$key_facing(found.index, found.part);
+    return note;
+}
 
 // Of media only the first that is entered is kept: transfer.frag goes on from there, and finds the others and the ways out itself.
 void meet(Found found, vec3 place, Momentum momentum AND_TIME(float delay), inout Hits hits) {
     bool known = false;
     for (int k = 0; k < MEETINGS; ++k) known = known || is_medium(hits.meeting[k].kind);
-    if (!is_medium(found.kind) || found.enters && !known) add_meeting(hits, found.kind, found.index, found.enters, place, momentum AND_TIME(delay), is_opaque(found.kind));
+    if (!is_medium(found.kind) || found.enters && !known) add_meeting(hits, found.kind, found.index, found.enters, place, momentum, note_on(found) AND_TIME(delay), is_opaque(found.kind));
 }
 
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
@@ -195,10 +202,10 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
             float own = max(stray_allowed(size), rounding(x, y));  // no finer than single precision
             if (tells_apart(ball.kind)) own = max(own, unseen_stray(x));
             bool fine = stray <= own, enters;
-            if (fine || !is_apart(ball.kind, ball.index, x, y, stray)) allowed = min(allowed, own);
-            float part = 2.0;
-            if (fine) part = met_part(ball.kind, ball.index, size, x, y, enters);
-            if (part < found.at) found = Found(ball.kind, ball.index, part, size, enters AND_PLACE(mix(x, y, part)));
+            int of;
+            float part = met_part(ball.kind, ball.index, size, x, y, fine ? 0.0 : stray, enters, of);
+            if (fine || part <= 1.0) allowed = min(allowed, own);
+            if (fine && part < found.at) found = Found(ball.kind, ball.index, part, size, enters, of AND_PLACE(mix(x, y, part)));
         }
         left = stray > allowed ? 0u : left;
     } while (left != 0u);
@@ -220,10 +227,11 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
 #if RAYS_LIGHT_TRAVEL
             own *= stray / (stray + circle_bow(kind, index, delays));
 #endif
-            if (stray <= own || !is_apart(kind, index, x, y, stray)) allowed = min(allowed, own);
-            bool enters;
-            float part = met_part(kind, index, size, x, y AND_TIME(delays), enters);
-            if (part < found.at) found = Found(kind, index, part, size, enters);
+            bool fine = stray <= own, enters;
+            int of;
+            float part = met_part(kind, index, size, x, y AND_TIME(delays), fine ? 0.0 : stray, enters, of);
+            if (fine || part <= 1.0) allowed = min(allowed, own);
+            if (fine && part < found.at) found = Found(kind, index, part, size, enters, of);
             number = stray > allowed ? 0 : next_node(leaf, number, true);
         }
     } while (number > 0);
@@ -322,14 +330,19 @@ Found next_meeting(Way way, float from, float to, int first) {
     return found;
 }
 
-// How far on along the unit vector `onward` from x what tells no distance is met: looked for as far as `most` before x and behind it; 1e30: it is not, or `is_placed`.
-float crossing_beyond(Found found, vec3 x, vec3 onward, float most) {
-    bool ignored;
+// How far on along the unit vector `onward` from x what tells no distance is met, by which of its parts: looked for as far as `most` before x and behind it; 1e30: it is
+// not, or `is_placed`.
+float crossing_beyond(inout Found found, vec3 x, vec3 onward, float most) {
+    bool enters = found.enters;
+    int of = found.part;
     float part = 2.0;
-#if BALLS_KNOWN
-#each thing_not_placed : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
-#else
-#each thing_by_crossing : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, ignored);
+#each thing_not_placed : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, enters);
+#if !BALLS_KNOWN
+#each thing_told_apart : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, 0.0, enters, of);
+    if (tells_apart(found.kind) && part <= 1.0) {
+        found.enters = enters;
+        found.part = of;
+    }
 #endif
     return part <= 1.0 ? (2.0 * part - 1.0) * most : 1e30;
 }
@@ -349,7 +362,7 @@ float straight_reach(float size, vec3 x) {
 }
 
 // How far on along the unit vector `onward` from x, which is close to it, the surface of what was found lies, r_s; 1e30 where that is more than `most`.
-float beyond_surface(Found found, vec3 x, vec3 onward, float most) {
+float beyond_surface(inout Found found, vec3 x, vec3 onward, float most) {
     float beyond = 1e30;
 #if MEETINGS_BY_DISTANCE
     if (tells_distance(found.kind)) {
@@ -368,7 +381,7 @@ float beyond_surface(Found found, vec3 x, vec3 onward, float most) {
 
 // A ray that begins inside a medium, at a camera there, has gone into it where it begins.
 void meet_at_start(vec3 x, Momentum momentum, inout Hits hits) {
-#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true AND_PLACE(x)), x, momentum AND_TIME(0.0), hits);
+#each medium : for (int i = 0; i < medium_$key_count; ++i) if (medium_$key_distance(i, x) < 0.0) meet(Found(MEDIUM_$KEY, i, 0.0, 0.0, true, 0 AND_PLACE(x)), x, momentum AND_TIME(0.0), hits);
 }
 
 #if !RAYS_LIGHT_TRAVEL  // models of straight rays tell no times

@@ -35,7 +35,8 @@ help = "Whether it has the colours that its file gives its corners, if it gives 
 #include "common/surface.glsl"
 #include "common/hierarchy.glsl"
 
-// mesh_triangles, MESH_TEXELS to each: three corners, their normals, their colours (−1: none); w of the first six: texture coordinates (the first −1e6: none).
+// mesh_triangles, MESH_TEXELS to each: three corners, their normals, their colours (−1: none); w of the first six: texture coordinates (the first −1e6: none), of the
+// others the triangle beyond the side opposite to each corner (−1: none).
 // A leaf of mesh_nodes holds 4·(number of its first triangle) + how many follow.
 
 // What a piece meets first of a mesh.
@@ -61,22 +62,52 @@ void meet_triangle(int triangle, vec3 x, vec3 way, inout MeshSpot found) {
     if (inside && whole != 0.0 && part >= 0.0 && part <= 1.0 && part < found.part) found = MeshSpot(part, triangle, shares, whole > 0.0);
 }
 
-// The first triangle of the mesh with the first node `root` on the piece from x to y, both in its own axes.
-MeshSpot meet_mesh(int root, vec3 x, vec3 y) {
+// The first triangle of the mesh with the first node `root` on the piece from x to y, both in its own axes; of a way that strays from the piece by a `pad` that is more than
+// 0, the first leaf that it may come into, as if that were met where the piece begins.
+MeshSpot meet_mesh(int root, vec3 x, vec3 y, float pad) {
     MeshSpot found = MeshSpot(2.0, -1, vec3(1.0, 0.0, 0.0), true);
-    Piece piece = piece_of(mesh_nodes, x, y, 0.0);
+    Piece piece = piece_of(mesh_nodes, x, y, pad);
     int number = root;
-    while (number > 0) {
+    if (number > 0) do {
         Node leaf;
         number = next_leaf(mesh_nodes, piece, number, min(found.part, 1.0), false, leaf);
-        if (number > 0) {
-            int first = held(leaf) >> 2, last = first + (held(leaf) & 3);
-            for (int triangle = first; triangle <= last; ++triangle) meet_triangle(triangle, x, y - x, found);
-            number = next_node(leaf, number, true);
-        }
-    }
+        if (number > 0 && pad > 0.0) found.part = 0.0;
+        int triangle = held(leaf) >> 2, last = pad > 0.0 ? triangle : triangle + (held(leaf) & 3);
+        bool left = number > 0;
+        if (left) do {
+            meet_triangle(triangle, x, y - x, found);
+            left = triangle < last;
+            triangle = min(triangle + 1, last);  // a round more leaves a ray that is done where it is (docs/llvmpipe.md)
+        } while (left);
+        number = number > 0 && pad <= 0.0 ? next_node(leaf, number, true) : 0;
+    } while (number > 0);
     return found;
 }
+
+#if MEETINGS == 1
+const int MOST_NEIGHBOURS = 8;
+
+// Where the line from x along `way` meets the mesh, going in or out as it `enters`: looked for from a triangle near by, from neighbour to neighbour. Places that are
+// interpolated in motion may lie `beside` the outline: then the nearest on the last triangle that is seen from there.
+MeshSpot spot_near(int triangle, vec3 x, vec3 way, bool enters, out bool beside) {
+    MeshSpot spot = MeshSpot(0.0, triangle, vec3(1.0), enters);
+    bool done;
+    int gone = 0, here = triangle;
+    do {
+        vec3 a = mesh_texel(here, 0).xyz - x, b = mesh_texel(here, 1).xyz - x, c = mesh_texel(here, 2).xyz - x;
+        vec3 volumes = (enters ? 1.0 : -1.0) * vec3(dot(way, cross(c, b)), dot(way, cross(a, c)), dot(way, cross(b, a)));
+        float whole = volumes.x + volumes.y + volumes.z, least = min(volumes.x, min(volumes.y, volumes.z));
+        int next = int(mesh_texel(here, volumes.x == least ? 6 : volumes.y == least ? 7 : 8).w);
+        if (whole > 0.0) spot = MeshSpot(0.0, here, volumes / whole, enters);
+        done = whole <= 0.0 || least >= 0.0 || next < 0;
+        here = done ? here : next;
+    } while (!done && ++gone < MOST_NEIGHBOURS);
+    beside = min(spot.shares.x, min(spot.shares.y, spot.shares.z)) < 0.0;
+    spot.shares = max(spot.shares, 0.0);
+    spot.shares /= spot.shares.x + spot.shares.y + spot.shares.z;
+    return spot;
+}
+#endif
 
 // A vector in the axes of the mesh, and one of theirs in the world.
 vec3 to_mesh(int i, vec3 v) {
@@ -89,25 +120,25 @@ vec3 from_mesh(int i, vec3 v) {
     return unturned(vec4(-attitude.xyz, attitude.w), thing_mesh_up(i) == 0 ? vec3(v.x, -v.z, v.y) : v);
 }
 
-float thing_mesh_crossing(int i, vec3 x, vec3 y, out bool enters) {
+float thing_mesh_crossing(int i, vec3 x, vec3 y, float stray, out bool enters, out int part) {
     vec4 bound = thing_mesh_bound(i);
     vec3 from = to_mesh(i, x - bound.xyz) / bound.w, way = to_mesh(i, y - x) / bound.w;
     // The part within a little more than the unit ball: single precision is for that.
+    float pad = stray / bound.w, within = 1.025 + 2.0 * pad;
     float way2 = max(dot(way, way), 1e-30), nearest = -dot(from, way) / way2;
     vec3 aside = from + nearest * way;
-    float half_chord = sqrt(max(1.05 - dot(aside, aside), 0.0) / way2);
+    float half_chord = sqrt(max(within * within - dot(aside, aside), 0.0) / way2);
     float begin = max(nearest - half_chord, 0.0), end = min(nearest + half_chord, 1.0);
     vec3 near = aside + (begin - nearest) * way, far = aside + (end - nearest) * way;
-    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far);
+    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far, pad);
     enters = found.enters;
+    part = max(found.triangle, 0);
     return found.part <= 1.0 ? mix(begin, end, found.part) : 2.0;
 }
 
-bool thing_mesh_apart(int i, vec3 x, vec3 y, float stray) {
-    vec4 bound = thing_mesh_bound(i);
-    Piece piece = piece_of(mesh_nodes, to_mesh(i, x - bound.xyz) / bound.w, to_mesh(i, y - bound.xyz) / bound.w, stray / bound.w);
-    Node leaf;
-    return next_leaf(mesh_nodes, piece, thing_mesh_file(i), 1.0, false, leaf) == 0;
+vec3 thing_mesh_facing(int i, int part) {
+    vec3 a = mesh_texel(part, 0).xyz;
+    return normalize(from_mesh(i, cross(mesh_texel(part, 1).xyz - a, mesh_texel(part, 2).xyz - a)));
 }
 
 // The change of texture coordinates along `change`, on a triangle with the sides a, b, along which they change by at_a, at_b.
@@ -118,26 +149,24 @@ vec2 change_on(vec3 a, vec3 b, vec2 at_a, vec2 at_b, vec3 change) {
 }
 
 Light thing_mesh_light(int i, Sight sight) {
-    const float BESIDE = 0.01;  // of its size, along the ray: where the surface is, to what a place is told
     vec4 bound = thing_mesh_bound(i);
     vec3 arm = sight.place - bound.xyz;
     vec3 at = to_mesh(i, arm) / bound.w, towards = to_mesh(i, sight.towards);
-    MeshSpot spot = meet_mesh(thing_mesh_file(i), at + BESIDE * towards, at - BESIDE * towards);
-    // Places that are interpolated in motion may lie a little beside an outline: then it is what lies across the ray, seen from the side that faces it.
-    bool is_beside = spot.triangle < 0;
-    vec3 right = normalize(abs(towards.z) < 0.9 ? vec3(towards.y, -towards.x, 0.0) : vec3(0.0, towards.z, -towards.y)), up = cross(towards, right);
-    for (int k = 0; k < 2; ++k) {
-        vec3 aside = 2.0 * BESIDE * (k == 0 ? right : up);
-        MeshSpot found = meet_mesh(spot.triangle < 0 ? thing_mesh_file(i) : 0, at + aside, at - aside);
-        if (spot.triangle < 0) spot = found;
-    }
+#if MEETINGS == 1
+    bool beside;
+    MeshSpot spot = spot_near(max(sight.part, 0), at, -towards, sight.enters, beside);
+#else
+    const float BESIDE = 0.01;  // of its size, along the ray: where the surface is, to what a place is told
+    const bool beside = false;
+    MeshSpot spot = meet_mesh(thing_mesh_file(i), at + BESIDE * towards, at - BESIDE * towards, 0.0);
+#endif
     int triangle = max(spot.triangle, 0);
     vec4 texels[6];
     for (int k = 0; k < 6; ++k) texels[k] = mesh_texel(triangle, k);
     mat3 colours = mat3(mesh_texel(triangle, 6).xyz, mesh_texel(triangle, 7).xyz, mesh_texel(triangle, 8).xyz);
     vec3 normal = mat3(texels[3].xyz, texels[4].xyz, texels[5].xyz) * spot.shares;
-    bool outside = is_beside ? dot(normal, towards) >= 0.0 : spot.enters;
-    normal = spot.triangle < 0 ? towards : normalize(outside ? normal : -normal);
+    bool outside = beside ? dot(normal, towards) >= 0.0 : spot.enters;
+    normal = normalize(outside ? normal : -normal);
     vec2 first = vec2(texels[0].w, texels[1].w), second = vec2(texels[2].w, texels[3].w), third = vec2(texels[4].w, texels[5].w);
     vec3 a = texels[1].xyz - texels[0].xyz, b = texels[2].xyz - texels[0].xyz;
     Painted painted = Painted(

@@ -68,17 +68,19 @@ def test_balls_behind_a_shock_wave_are_where_they_are_and_fewer_pixels_have_rays
 
 
 def test_no_place_on_a_mesh_is_interpolated_between_its_near_and_its_far_part(renderer: Renderer) -> None:
-    """Outlines may be displaced as everywhere in motion; where both maps show the knot, its strands hide each other."""
+    """Outlines may be displaced as everywhere in motion, be it before another strand: what is interpolated lies where one of the nine pixels about has it."""
     scene = presets.load(["knot_behind_a_hole"], {"rays.edges": 1})
     exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
     own = renderer.hit_map.own_rays()
     both = (exact.met[..., 0, 0] >= 0) & (found.met[..., 0, 0] >= 0)
     assert (both & ~own).mean() > 0.04 and own.mean() < 0.25
     strand = 0.5  # r_s, less than one is thick
-    error = np.linalg.norm(found.met_place - exact.met_place, axis=-1)[..., 0]
-    elsewhere = np.count_nonzero(error[both & ~own] > strand)
-    print(f"{own.mean():.3f} have rays of their own; {elsewhere} of {np.count_nonzero(both & ~own)} interpolated are elsewhere")
-    assert elsewhere == 0
+    places = np.pad(exact.met_place[..., 0, :], ((1, 1), (1, 1), (0, 0)), mode="edge")
+    around = [places[1 + y : 1 + y + SIZE[1], 1 + x : 1 + x + SIZE[0]] for y in (-1, 0, 1) for x in (-1, 0, 1)]
+    error = [np.linalg.norm(found.met_place[..., 0, :] - one, axis=-1) for one in around]
+    elsewhere, displaced = (np.count_nonzero(off[both & ~own] > strand) for off in (np.min(error, axis=0), error[4]))
+    print(f"{own.mean():.3f} have rays of their own; of {np.count_nonzero(both & ~own)} interpolated {elsewhere} are elsewhere, {displaced} beside an outline")
+    assert elsewhere == 0 and displaced <= 1e-3 * np.count_nonzero(both & ~own)
 
 
 def test_steps_are_longer_in_motion_where_a_march_through_a_field_errs_by_less_than_the_picture_s_own_pixels() -> None:

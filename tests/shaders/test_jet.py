@@ -95,7 +95,7 @@ uniform sampler2D cases;
 out vec4 o;
 vec4 given(int k) { return texelFetch(cases, ivec2(gl_FragCoord.x, k), 0); }
 void main() {
-    Meeting met = Meeting(0, 0, 0, true, given(0).xyz, Momentum(given(1).w, given(1).xyz));
+    Meeting met = Meeting(0, 0, 0, true, given(0).xyz, Momentum(given(1).w, given(1).xyz), vec3(0.0));
     Matter matter = medium_jet_matter(0, sight_of(met, vec2(1.25)));
     float pattern = medium_jet_pattern(0, met.place, 0.0);
     o = vec4(pattern * matter.emission.x, pattern * matter.absorption.x, matter.shift, medium_jet_distance(0, met.place));

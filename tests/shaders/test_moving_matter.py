@@ -22,7 +22,7 @@ uniform sampler2D cases;
 out vec4 o;
 vec4 given(int k) { return texelFetch(cases, ivec2(gl_FragCoord.x, k), 0); }
 void main() {
-    Meeting met = Meeting(0, 0, 0, true, given(0).xyz, Momentum(given(2).w, given(2).xyz));
+    Meeting met = Meeting(0, 0, 0, true, given(0).xyz, Momentum(given(2).w, given(2).xyz), vec3(0.0));
     o = vec4(emitted_shift(sight_of(met, vec2(1.0)), given(1).xyz));
 }
 """

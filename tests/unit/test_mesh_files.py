@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from blackhole_gl.rendering import mesh_files
+from blackhole_gl.rendering import mesh_files, meshes
 from blackhole_gl.rendering.mesh_files import Mesh, MeshFiles
 from blackhole_gl.resources import assets_dir
 from blackhole_gl.scene.schema import SceneError
@@ -184,3 +184,17 @@ def test_damaged_files_are_read_or_refused_and_nothing_else(tmp_path: Path, suff
             assert error.key == KEY and "allowed is" in error.message
         else:
             assert np.all(np.isfinite(mesh.corners)) and np.all(np.isfinite(mesh.normals)) and np.abs(mesh.corners).max() <= 1.0 + 1e-6
+
+
+def test_triangles_know_those_beyond_their_sides() -> None:
+    """Of a pyramid each has three neighbours, with which it shares the side opposite to that corner; without its base the sides there have none."""
+    top, base = (0.0, 0.0, 1.0), [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, -1.0, 0.0)]
+    sides = [(base[k], base[(k + 1) % 3], top) for k in range(3)]
+    whole = np.array([*sides, (base[2], base[1], base[0])], np.float32)
+    beyond = meshes.beyond_sides(whole)
+    for number, corners in enumerate(whole):
+        for opposite, other in enumerate(beyond[number]):
+            shared = {tuple(corner) for place, corner in enumerate(corners) if place != opposite}
+            assert other != number and shared <= {tuple(corner) for corner in whole[other]}
+    np.testing.assert_array_equal(meshes.beyond_sides(whole[:3]), [[1, 2, -1], [2, 0, -1], [0, 1, -1]])
+    assert meshes.beyond_sides(whole[:0]).shape == (0, 3)
