@@ -20,7 +20,9 @@ from .boxes import bands_of
 from .classes import MATTER, OPEN_THINGS, OWN_RAYS, Where, drawn
 from .draw import Draw
 from .inputs import FrameInputs
+from .packed_rays import PackedRays
 from .programs import Programs
+from .ray_blocks import RayBlocks
 from .reach import Reached
 from .refinement import tolerances
 from .target import Target, plain_texture
@@ -63,6 +65,7 @@ class _Made:
         cells: of 2×2 pixels, R8, as shaders/refine_half_cells.frag leaves them.
         classes: depth of the picture's size, by these.
         sorted: draws into `classes`.
+        packed: rays of the pixels that are left and may show things.
     """
 
     made_for: tuple[tuple[int, int], int]
@@ -74,9 +77,10 @@ class _Made:
     cells: Target
     classes: moderngl.Texture
     sorted: moderngl.Framebuffer
+    packed: PackedRays
 
     def release(self) -> None:
-        for item in (self.chosen, self.rays, self.without_things, self.marks, self.depth, self.cells, self.sorted, self.classes):
+        for item in (self.chosen, self.rays, self.without_things, self.marks, self.depth, self.cells, self.sorted, self.classes, self.packed):
             item.release()
 
 
@@ -94,6 +98,7 @@ class HalfGrid:
         self.cells = np.empty((0, 0), np.float32)
         self._rays = 0  # of the last picture
         self._chosen = np.empty((0, 0), bool)  # of the coarse grid's cells
+        self._with_nodes = np.empty((0, 0), bool)  # those of them that may show things
 
     def choose(
         self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"], *, first: bool = False
@@ -113,7 +118,7 @@ class HalfGrid:
         made = self._targets(inputs.size, count)
         chosen = np.where(together & things, _NOT_CLEAR, np.where(together, _CLEAR, 0)).astype(np.uint8)
         made.chosen.write(chosen.tobytes(), alignment=1)
-        self._rays, self._chosen = int(with_rays) * _ALONG**2, together
+        self._rays, self._chosen, self._with_nodes = int(with_rays) * _ALONG**2, together, together & things
         made.rays.frame.clear()
         marks = self._programs.get("refine_half_marks.frag", inputs)
         marks.sample({"chosen": made.chosen})
@@ -166,7 +171,7 @@ class HalfGrid:
         self.trace_own_rays(fill, textures, MATTER)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
-        """Draws those pixels that are `where` into `textures`, of the picture's size: `OWN_RAYS` and `OPEN_THINGS` are those left to trace."""
+        """Draws those pixels that are `where` into `textures`, of the picture's size: `OWN_RAYS` are those left to trace that show no things."""
         into = self._into.get(len(textures))
         if into is None or into.color_attachments != tuple(textures) or into.depth_attachment is not self._made.classes:
             if into is not None:
@@ -178,6 +183,19 @@ class HalfGrid:
             rays.set(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
             rays.draw_boxes(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND))
+
+    def pack(self) -> RayBlocks | None:
+        """The rays that are left to pixels which may show things, side by side; None where there are none."""
+        nodes = np.kron(self._with_nodes, _WHOLE)[: self.cells.shape[0], : self.cells.shape[1]] > 0
+        return self._made.packed.blocks if self._made.packed.choose(OPEN_THINGS.holds(self.cells), nodes) else None
+
+    def trace_packed(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
+        """Traces those, and puts what they meet into `textures`, of the picture's size; `rays` are of the blocks that `pack` has told."""
+        packed = self._made.packed
+        packed.trace(rays)
+        put = self._programs.get("refine_half_put.frag", rays.inputs)
+        put.sample({**self._hits, "numbers": packed.numbers, **dict(zip(("packed0", "packed_met", "packed_way"), packed.textures))})
+        self.trace_own_rays(put, textures, OPEN_THINGS)
 
     @property
     def marched(self) -> int:
@@ -243,6 +261,7 @@ class HalfGrid:
             cells=Target.of(self._ctx, [plain_texture(self._ctx, cells, 1, "f1")]),
             classes=classes,
             sorted=self._ctx.framebuffer([], classes),
+            packed=PackedRays(self._ctx, cells, count),
         )
 
 

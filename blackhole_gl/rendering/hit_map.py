@@ -328,6 +328,13 @@ class HitMap:
             self._half.judge(rays.inputs, self._grid.cells, self._grid.cell_classes, self.known, narrow)
             self._half.fill(rays.inputs, self.textures)
         for draw, where, textures, _ in drawn:
+            if self._halved and draw is seeking:
+                self._blocks = self._half.pack()
+                if self._blocks is not None:
+                    self._bind_tables(draw)
+                    self._half.trace_packed(draw, textures)
+                self._blocks = None
+                continue
             self._bind_tables(draw)
             (self._half if self._halved else self._grid).trace_own_rays(draw, textures, where)
 

@@ -11,6 +11,7 @@ from blackhole_gl.rendering.frame_met import FrameMet
 from blackhole_gl.rendering.half_grid import HalfGrid, narrow_balls
 from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.rendering.inputs import FrameInputs
+from blackhole_gl.rendering.packed_rays import PackedRays, texel_of
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)
@@ -129,6 +130,26 @@ def test_what_a_moving_ray_meets_of_a_mesh_lies_no_farther_from_its_way_than_out
     pixels = beside / (np.radians(scene.camera.fov_deg) / SIZE[1] * np.linalg.norm(place - camera, axis=-1))
     print(f"{np.quantile(pixels, 0.5):.3f} px beside the way in the middle, {np.quantile(pixels, 0.99):.3f} at 99 %")
     assert both.mean() > 0.03 and 0.0 < np.quantile(pixels, 0.99) <= 0.8 * scene.rays.tolerance
+
+
+def test_rays_that_are_packed_are_those_of_their_pixels(renderer: Renderer) -> None:
+    """Four of each cell, but for the first where that is known; as many again, and fewer, as the map has had."""
+    rng, size = np.random.default_rng(3), (131, 90)
+    packed = PackedRays(renderer.ctx, size, 3)
+    for share in (0.02, 0.6, 0.1, 0.0):
+        cells, known = rng.random(size[::-1]) < share, rng.random(size[::-1]) < 0.5
+        assert packed.choose(cells, known) == 4 * np.count_nonzero(cells) - np.count_nonzero(cells & known)
+        shifts = packed.blocks.shifts
+        places = np.frombuffer(shifts.read(), np.float32).reshape(shifts.height, shifts.width, 2)
+        numbers = np.frombuffer(packed.numbers.read(alignment=1), np.float32).reshape(size[::-1]).astype(int)
+        rows, columns = np.nonzero(cells)
+        for part in range(4):
+            first = numbers[rows, columns]
+            np.testing.assert_array_equal(first < 0, known[rows, columns])
+            traced = (first >= 0) | (part > 0)
+            x, y = texel_of(np.where(first < 0, part - 2 - first, first + part)[traced])
+            np.testing.assert_array_equal(places[y, x] + np.stack([x, y], axis=-1), np.stack([2 * columns + part % 2, 2 * rows + part // 2], axis=-1)[traced])
+    packed.release()
 
 
 @pytest.mark.parametrize("name", ["explosion", "knot_behind_a_hole"])

@@ -1,0 +1,110 @@
+"""Rays of pixels that lie apart, such as along outlines: traced side by side in a map of their own, then put where they belong.
+
+Software renderers shade eight pixels together, whichever of them are asked for (docs/llvmpipe.md): along outlines a third of the rays were nobody's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+
+from ..planning import HALF_STEP
+from ..shapes import Bool, Int
+from .draw import Draw
+from .ray_blocks import RayBlocks, shifts_texture
+from .squares import TOGETHER
+from .target import Target, plain_texture
+
+_WIDTH = 63 * TOGETHER  # of the map, in pixels: no power of two (docs/llvmpipe.md)
+_FIRST_ROWS = 9 * TOGETHER
+_IN_BLOCK = TOGETHER**2
+
+
+class PackedRays:
+    """The rays of cells of `HALF_STEP`² pixels, but for those pixels that have been traced with others.
+
+    Attributes:
+        numbers: R32F, of each cell: the number in the map of the ray of its first pixel, the others behind it in rows; where that has been traced,
+            −1 − the number of the next one's.
+    """
+
+    def __init__(self, ctx: moderngl.Context, cells: tuple[int, int], count: int):
+        self._ctx, self._count = ctx, count
+        self.numbers = plain_texture(ctx, cells, 1, "f4")
+        self._rays: Target | None = None
+        self._shifts: moderngl.Texture | None = None
+        self._rows = 0  # in use
+
+    def choose(self, cells: Bool[np.ndarray, "rows columns"], first_is_known: Bool[np.ndarray, "rows columns"]) -> int:
+        """Packs the rays of `cells`; of those whose `first_is_known` all but that of their first pixel. Returns how many rays there are."""
+        rows, columns = np.nonzero(cells)
+        known = first_is_known[rows, columns]
+        ends = np.cumsum(HALF_STEP**2 - known)
+        if not len(ends):
+            return 0
+        first = np.concatenate([[0], ends[:-1]])
+        numbers = np.zeros(cells.shape, np.float32)
+        numbers[rows, columns] = np.where(known, -1 - first, first)
+        self.numbers.write(numbers.tobytes(), alignment=1)
+        of = np.repeat(np.arange(len(ends)), HALF_STEP**2 - known)
+        part = np.arange(ends[-1]) - (first - known)[of]
+        pixels = HALF_STEP * np.stack([columns, rows], axis=-1)[of] + np.stack([part % HALF_STEP, part // HALF_STEP], axis=-1)
+        self._write(pixels)
+        return len(pixels)
+
+    def trace(self, rays: Draw) -> None:
+        """Traces them; `rays` are of `blocks`."""
+        rays.set(ray_grid=(1.0, 0.0, 0.0))
+        self._there.frame.use()
+        rays.draw_boxes([(0, 0, _WIDTH, self._rows)])
+
+    @property
+    def blocks(self) -> RayBlocks:
+        """The map's blocks, of a ray each."""
+        if self._shifts is None:
+            raise RuntimeError("no rays have been chosen yet: `choose` comes first")
+        return RayBlocks(1, self._shifts)
+
+    @property
+    def textures(self) -> Sequence[moderngl.Texture]:
+        """What they hit: those of a hit map."""
+        return self._there.textures
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        for item in (self.numbers, self._rays, self._shifts):
+            if item is not None:
+                item.release()
+        self._rays = self._shifts = None
+
+    @property
+    def _there(self) -> Target:
+        if self._rays is None:
+            raise RuntimeError("no rays have been chosen yet: `choose` comes first")
+        return self._rays
+
+    def _write(self, pixels: Int[np.ndarray, "rays 2"]) -> None:
+        """Tells where the rays are from; what is left of the last blocks are those of the last pixel."""
+        across = _WIDTH // TOGETHER
+        self._rows = TOGETHER * -(-len(pixels) // (_IN_BLOCK * across))
+        number = np.arange(self._rows * _WIDTH)
+        place = np.stack(texel_of(number), axis=-1)
+        shifts = np.zeros((self._rows, _WIDTH, 2), np.float32)
+        shifts[place[:, 1], place[:, 0]] = pixels[np.minimum(number, len(pixels) - 1)] - place
+        if self._shifts is None or self._rays is None or self._shifts.height < self._rows:
+            for item in (self._rays, self._shifts):
+                if item is not None:
+                    item.release()
+            rows = max(_FIRST_ROWS, TOGETHER * (self._rows // TOGETHER + self._rows // (2 * TOGETHER) | 1))
+            self._shifts = shifts_texture(self._ctx, (_WIDTH, rows))
+            self._rays = Target.of(self._ctx, [plain_texture(self._ctx, (_WIDTH, rows), 4, "f4") for _ in range(self._count)])
+        self._shifts.write(shifts.tobytes(), (0, 0, _WIDTH, self._rows))
+
+
+def texel_of(number: Int[np.ndarray, " rays"]) -> tuple[Int[np.ndarray, " rays"], Int[np.ndarray, " rays"]]:
+    """Column and row of each ray in the map, by its number: blocks of `TOGETHER`² lie side by side (shaders/refine_half_put.frag)."""
+    block, within = np.divmod(number, _IN_BLOCK)
+    row, column = np.divmod(block, _WIDTH // TOGETHER)
+    return TOGETHER * column + within % TOGETHER, TOGETHER * row + within // TOGETHER
