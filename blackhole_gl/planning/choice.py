@@ -6,7 +6,7 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -158,15 +158,25 @@ def is_open(scene: Scene) -> bool:
 def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
     # A stronger field asks for shorter steps; a control that judges its steps finds them.
-    any_control, in_px = not is_field(scene) or nearest.is_as_measured(scene), _pixels(scene)
-    for method, rows in _candidates(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene)):
-        if not any_control and not method.step_tolerance:
-            continue
-        yield Prediction(method, max(in_px(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
+    any_control = not is_field(scene) or nearest.is_as_measured(scene)
+    yield from _marched(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), any_control, _pixels(scene))
     if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
         # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
         rows = tuple(row for row in _measured_in(nearest.nearest_scenes(scene)) if row.model == thin_lens.MODEL)
         yield from (Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
+
+
+@lru_cache(maxsize=64)
+def _marched(near: tuple[str, ...], rays: Rays, spins: bool, has_things: bool, any_control: bool, pixels: _Pixels) -> tuple[Prediction, ...]:
+    """What is expected of `_candidates`; unless `any_control` will do, of those that judge their steps alone.
+
+    Kept, as most cameras that move change none of it.
+    """
+    return tuple(
+        Prediction(method, max(pixels.of(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
+        for method, rows in _candidates(near, rays, spins, has_things)
+        if any_control or method.step_tolerance
+    )
 
 
 @lru_cache(maxsize=64)
@@ -209,7 +219,7 @@ def stated_error_px(scene: Scene) -> float:
         return math.nan
     near = nearest.nearest_scenes(scene)
     rows = _rows_by_method(near).get(_stated_method(scene), {})
-    in_px = _pixels(scene)
+    in_px = _pixels(scene).of
     found = [in_px(row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
     return max(found) if found and len(found) == len(near) else math.nan
 
@@ -229,7 +239,7 @@ def _refined_error_px(scene: Scene, marched: Measured, refined: Measured) -> flo
     The march errs by an angle, whatever a pixel is; interpolation by a share of a pixel, there as here, which follows the tolerance.
     """
     height = REFINED_SIZE[1]
-    march, both = (_pixels(scene, row.fov_deg, row.distance, height)(row.direction_99, row.crossing_r_99) for row in (marched, refined))
+    march, both = (_pixels(scene, row.fov_deg, row.distance, height).of(row.direction_99, row.crossing_r_99) for row in (marched, refined))
     added = max(both - march, 0.0) * scene.rays.tolerance / REFINED_TOLERANCE
     return error_px(scene, marched.direction_99, marched.crossing_r_99, height) + added
 
@@ -247,27 +257,38 @@ def _stated_method(scene: Scene) -> Method:
 
 def error_px(scene: Scene, direction: float, crossing_r: float, height: int = PICTURE_HEIGHT) -> float:
     """Errors in pixels of a picture of `scene` `height` pixels high: of the escape direction (rad), or of where on the disk a pixel looks (relative radius)."""
-    return _pixels(scene, height=height)(direction, crossing_r)
+    return _pixels(scene, height=height).of(direction, crossing_r)
 
 
-def _pixels(scene: Scene, fov_deg: float | None = None, distance: float | None = None, height: int = PICTURE_HEIGHT) -> Callable[[float, float], float]:
-    """What makes pixels of errors, as `error_px` does; for the disk of `scene` seen by its own camera or by another."""
+@dataclass(frozen=True)
+class _Pixels:
+    """What makes pixels of errors, as `error_px` does.
+
+    Attributes:
+        pixel: an angle in rad.
+        moved: what is seen of the disk moves by so much, in rad, for each relative error of its radius.
+    """
+
+    pixel: float
+    moved: float
+
+    def of(self, direction: float, crossing_r: float) -> float:
+        return direction / self.pixel if math.isnan(crossing_r) else max(direction, crossing_r * self.moved) / self.pixel
+
+
+def _pixels(scene: Scene, fov_deg: float | None = None, distance: float | None = None, height: int = PICTURE_HEIGHT) -> _Pixels:
+    """That for the disk of `scene` seen by its own camera or by another."""
     camera = scene.camera
     pixel = (projection.view_angle(camera) if fov_deg is None else math.radians(fov_deg)) / height
     distance = camera.distance if distance is None else distance
     sees_disk, outer = scene.disk.enabled and not math.isinf(distance), scene.disk.outer_radius
-    moved = outer / max(distance, outer) if sees_disk else 0.0
-
-    def in_px(direction: float, crossing_r: float) -> float:
-        return direction / pixel if math.isnan(crossing_r) else max(direction, crossing_r * moved) / pixel
-
-    return in_px
+    return _Pixels(pixel, outer / max(distance, outer) if sees_disk else 0.0)
 
 
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
     nearest.forget()
-    for kept in (_candidates, _rows_by_method, choose, refinement):
+    for kept in (_candidates, _marched, _rows_by_method, choose, refinement):
         kept.cache_clear()
 
 

@@ -23,7 +23,6 @@ from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .instance_numbers import Number
-from .instances import InstanceTables
 from .programs import Programs
 from .ray_blocks import FreshBlocks, RayBlocks
 from .squares import Squares
@@ -52,7 +51,6 @@ class HitMap:
 
     Attributes:
         textures: RGBA32F, one to three by the number of crossings kept; their layout is shaders/common/hit_map_write.glsl.
-        instances: the things and media that they may meet.
         traces: how many times rays have been traced, for tests and the overlay.
         generation: of what the map holds: a number that no other trace of this process has had.
         known: of a refined map that the last `trace` has made, which things its cells may show; None of other maps, or where that is not known.
@@ -69,7 +67,6 @@ class HitMap:
         self.sharpened = False
         self.marched = 0
         self.parts: Squares | None = None
-        self.instances = InstanceTables(ctx)
         self._pool: list[moderngl.Texture] = []
         self._targets: dict[int, moderngl.Framebuffer] = {}
         self._key: tuple | None = None  # of all but the things and media, which have a key of their own
@@ -202,7 +199,7 @@ class HitMap:
     def _bind_tables(self, rays: Draw) -> None:
         """Gives the trace pass what it looks up: tables of the ray model, the things and media that rays may meet, and which pixels the rays are of."""
         plan = rays.inputs.plan
-        things = self.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
+        things = self.tables.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
         if self.known is not None:
             things = {**things, **self.known.samplers}
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS), {**things, **self._ray_blocks.samplers})
@@ -486,7 +483,6 @@ class HitMap:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        self.instances.release()
         self._grid.release()
         self._things.release()
         self._half.release()

@@ -244,7 +244,7 @@ class ShadePass:
         declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), scene)
         found: dict[str, moderngl.Texture | moderngl.TextureArray] = {**hit_map.samplers(), **declared}
         if inputs.plan.meetings:
-            found |= {**hit_map.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
+            found |= {**hit_map.tables.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
         if scene.media:
             found |= self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene)
         return {**found, **self._stretches, "temperature_profile": self._temperatures.of(inputs.plan)}

@@ -14,6 +14,7 @@ from ..scene.catalogue import CatalogueError, PlugIn
 from ..scene.tables import Table
 from . import mip_levels
 from .draw import Draw, Samplers
+from .instances import InstanceTables
 from .pictures import Pictures
 
 RAY_UNIT = 7
@@ -32,12 +33,14 @@ class Tables:
 
     Attributes:
         pictures: those that parameters name.
+        instances: the things and media that rays may meet: of one scene and time in all maps that are traced with these.
         made: how many tables have been made, for tests.
     """
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
         self.pictures = Pictures(ctx)
+        self.instances = InstanceTables(ctx)
         self.made = 0
         self._kept: dict[Table, tuple[tuple[Any, ...], moderngl.Texture]] = {}
 
@@ -59,6 +62,7 @@ class Tables:
     def release(self) -> None:
         """Gives the GL objects back."""
         self.pictures.release()
+        self.instances.release()
         for _, texture in self._kept.values():
             texture.release()
         self._kept = {}
