@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import inspect
+import math
 import os
 import types
 import typing
@@ -158,14 +159,19 @@ class _Reader:
             value = self.kind(text)
         except ValueError:
             raise argparse.ArgumentTypeError(f"got {text!r}; allowed is {self._allowed}{decimal_comma(text)}") from None
-        if (self.least is not None and value < self.least) or (self.most is not None and value > self.most):
+        outside = (self.least is not None and value < self.least) or (self.most is not None and value > self.most)
+        if outside or self.kind is float and not math.isfinite(value):
             raise argparse.ArgumentTypeError(f"got {text!r}; allowed is {self._allowed}")
         return value
 
     @property
     def _allowed(self) -> str:
         kind = {int: "a whole number", float: "a number"}[self.kind]
-        return kind if self.least is None or self.most is None else f"{kind}, {self.least:g} to {self.most:g}"
+        if self.least is None and self.most is None:
+            return kind
+        if self.least is not None and self.most is not None:
+            return f"{kind}, {self.least:g} to {self.most:g}"
+        return f"{kind}, {self.least:g} or more" if self.most is None else f"{kind}, {self.most:g} or less"
 
 
 def _plain(kind: object) -> object:

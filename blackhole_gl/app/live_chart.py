@@ -110,8 +110,8 @@ class LiveChart:
 
     def _plot(self, state: WindowState) -> None:
         shown = [point for point in self.points if point.pixels > 0.0]  # false for NaN too
-        if self.fit_next and shown:
-            _fit(shown)
+        if self.fit_next or not shown:
+            implot.set_next_axes_limits(*room_for(shown), implot.Cond_.always.value)
             self.fit_next = False
         if not implot.begin_plot("##methods", (-1.0, -1.0), implot.Flags_.no_mouse_text.value):
             return
@@ -135,10 +135,13 @@ class LiveChart:
         implot.end_plot()
 
 
-def _fit(points: list[LivePoint]) -> None:
-    """The next plot's axes hold `points` with room around them; implot's own fit pads logarithms as if they were lengths."""
-    costs, errors = [point.cost for point in points], [*(point.pixels for point in points), _HALF_A_PIXEL]
-    implot.set_next_axes_limits(min(costs) / 1.4, max(costs) * 1.4, min(errors) / 3.0, max(errors) * 3.0, implot.Cond_.always.value)
+def room_for(points: list[LivePoint]) -> tuple[float, float, float, float]:
+    """Least and most of either axis, so that they hold `points` with room around them.
+
+    implot's own fit pads logarithms as if they were lengths, and without points goes to the end of the numbers.
+    """
+    costs, errors = [point.cost for point in points] or [1.0, 10.0], [*(point.pixels for point in points), _HALF_A_PIXEL]
+    return min(costs) / 1.4, max(costs) * 1.4, min(errors) / 3.0, max(errors) * 3.0
 
 
 def use(point: LivePoint, state: WindowState) -> None:

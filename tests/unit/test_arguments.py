@@ -15,6 +15,8 @@ def draw(
     names: Annotated[list[str] | None, Argument(help="What.")] = None,
     size_: Annotated[int, Option(least=1, most=16, help="How large.")] = 4,
     when: Annotated[float | None, Option(help="When.", default="now")] = None,
+    lasts: Annotated[float, Option(least=0.0, help="How long.")] = 0.0,
+    depth: Annotated[int, Option(most=3, help="How deep.")] = 0,
     set_: Annotated[list[str] | None, Option("--set", "-s", help="With what.")] = None,
     quick: Annotated[bool, Option(help="Or not.")] = False,
     checked: Annotated[bool, Option(help="Or not.")] = True,
@@ -33,7 +35,7 @@ def values(words: str) -> dict[str, object]:
 def test_a_parameter_not_given_is_its_default(monkeypatch: pytest.MonkeyPatch) -> None:
     found = values("-o x")
     assert found.pop("out") == Path("x") and found.pop("names") == []
-    assert found == {"size_": 4, "when": None, "set_": None, "quick": False, "checked": True, "way": "auto"}
+    assert found == {"size_": 4, "when": None, "lasts": 0.0, "depth": 0, "set_": None, "quick": False, "checked": True, "way": "auto"}
     monkeypatch.setenv("PROGRAM_WAY", "egl")
     assert values("-o x")["way"] == "egl" and values("-o x --way osmesa")["way"] == "osmesa"
 
@@ -54,6 +56,10 @@ def test_options_stand_before_between_and_behind_words() -> None:
         ("draw -o x --size 17", "program draw: --size: got '17'; allowed is a whole number, 1 to 16"),
         ("draw -o x --size 1.5", "program draw: --size: got '1.5'; allowed is a whole number, 1 to 16"),
         ("draw -o x --when 1,5", "program draw: --when: got '1,5'; allowed is a number; write 1.5, not 1,5"),
+        ("draw -o x --when nan", "program draw: --when: got 'nan'; allowed is a number"),
+        ("draw -o x --lasts inf", "program draw: --lasts: got 'inf'; allowed is a number, 0 or more"),
+        ("draw -o x --lasts -5", "program draw: --lasts: got '-5'; allowed is a number, 0 or more"),
+        ("draw -o x --depth 4", "program draw: --depth: got '4'; allowed is a whole number, 3 or less"),
         ("", "program: no command; allowed is one of draw"),
     ],
 )

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl import listed_rays, planning
+from blackhole_gl.app.live_chart import room_for
 from blackhole_gl.listed_rays import TracedRays
 from blackhole_gl.measure import bench, errors, live, refined, timing
 from blackhole_gl.measure import methods as chart_methods
@@ -361,6 +362,15 @@ def test_the_live_chart_measures_a_view_bit_by_bit(renderer: Renderer) -> None:
     assert not measured.advance(renderer)
     measured.cancel()
     assert not measured.busy
+
+
+def test_the_live_chart_has_room_before_it_has_points() -> None:
+    """Its axes went from 1e-306 to 1 until the first was there."""
+    left, right, bottom, top = room_for([])
+    assert 0.1 < left < 1.0 < 10.0 < right < 100.0 and 0.1 < bottom < 0.5 < top < 2.0
+    point = live.LivePoint(Combination("flat"), 0.0, 1e-3, 30.0, 0.0, 2.0, 1.0)
+    left, right, bottom, top = room_for([point])
+    assert left < 2.0 < right and bottom < 0.5 and 30.0 < top
 
 
 def test_the_live_chart_of_a_scene_with_things_is_that_of_its_light() -> None:
