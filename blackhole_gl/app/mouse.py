@@ -34,14 +34,15 @@ class Mouse:
         """
         io = imgui.get_io()
         over_picture = not io.want_capture_mouse
-        if self._button is not None and not imgui.is_mouse_down(self._button):
+        dragged = self._button  # also up to where it is let go: at a few frames a second a flick of the hand begins in one and is over in the next
+        if dragged is not None and not imgui.is_mouse_down(dragged):
             self._button = None
         begun = next((button for button in _BUTTONS if imgui.is_mouse_clicked(button)), None) if over_picture and self._button is None else None
         if begun is not None:
             self._button, self._moved = begun, False
         # In the frame of the click the mouse may have come from anywhere.
-        moves = begun is None and height >= 1.0
+        moves = dragged is not None and height >= 1.0
         way = (io.mouse_delta.x / height, io.mouse_delta.y / height) if moves else (0.0, 0.0)
-        self._moved |= any(way)
-        left, right, middle = (way if button == self._button else (0.0, 0.0) for button in _BUTTONS)
+        self._moved |= begun is None and any(way)
+        left, right, middle = (way if button == dragged else (0.0, 0.0) for button in _BUTTONS)
         return left, right, middle, io.mouse_wheel if over_picture else 0.0
