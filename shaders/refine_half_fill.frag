@@ -33,12 +33,14 @@ vec3 mean_outermost(sampler2D nodes, vec2 place, vec2 onward) {
     return 0.5 * (textureLod(nodes, place - 2.5 * onward, 0.0).xyz + textureLod(nodes, place + 2.5 * onward, 0.0).xyz);
 }
 
-vec3 interpolated(sampler2D nodes, vec2 place, vec2 between, int way) {
+// `six`: directions alone are ever interpolated by six.
+vec3 interpolated(sampler2D nodes, vec2 place, vec2 between, int way, const bool six) {
     vec2 texel = 1.0 / vec2(textureSize(nodes, 0)), right = vec2(texel.x, 0.0), up = vec2(0.0, texel.y);
-    bool by_six = way == BY_SIX;
+    bool by_six = six && way == BY_SIX;
     vec3 mean = textureLod(nodes, place, 0.0).xyz;
     vec3 about_x = mean_about(nodes, place, right, mean, by_six ? BY_FOUR : way % 3), about_y = mean_about(nodes, place, up, mean, by_six ? BY_FOUR : way / 3);
     vec3 cubic = mean - 0.125 * (between.x * (about_x - mean) + between.y * (about_y - mean));
+    if (!six) return cubic;
     vec3 more_x = beyond_cubic(mean, about_x, mean_outermost(nodes, place, right)), more_y = beyond_cubic(mean, about_y, mean_outermost(nodes, place, up));
     return by_six ? cubic + between.x * more_x + between.y * more_y : cubic;
 }
@@ -51,10 +53,10 @@ void main() {
     Hits hits = no_hits(0.0);
     hits.fate = texel_fate(escape);
     hits.steps = int(texel_steps(escape));
-    if (hits.fate == ESCAPED) hits.direction = normalize(interpolated(half0, place, between, way));
+    if (hits.fate == ESCAPED) hits.direction = normalize(interpolated(half0, place, between, way, true));
 #if MEETINGS
     float met = texelFetch(half_met, node, 0).w;
-    hits.meeting[0] = unpacked_meeting(vec4(interpolated(half_met, place, between, way), met), textureLod(half_way, place, 0.0), escape.xyz AND_TIME(0.0));
+    hits.meeting[0] = unpacked_meeting(vec4(interpolated(half_met, place, between, way, false), met), textureLod(half_way, place, 0.0), escape.xyz AND_TIME(0.0));
 #endif
     store_hits(hits);
 }
