@@ -10,6 +10,7 @@ from .labels import Labels
 from .views import Colour, Scale, View, tick_text
 
 _FINER = 3  # the drawing is made larger by this and averaged, which smooths its lines
+_ROWS = 32  # of the picture that it is laid over at a time: a pixel's share of the sheet takes 700 bytes meanwhile
 _LEAST_TEXT = 11.0  # pixels
 _TEXT_SHARE = 1.0 / 42.0  # of the picture's height
 _TEXT: Colour = (0.86, 0.87, 0.90)
@@ -30,12 +31,13 @@ class Sheet:
 
     def over(self, pixels: np.ndarray) -> np.ndarray:
         """`pixels` with the sheet laid over them."""
-        # Colours with their opacity, or what is beside a line would darken it.
-        sheet = np.asarray(self._sheet, float)
-        share = sheet[..., 3:] / 255.0
-        width, height = self._size
-        blocks = np.concatenate([sheet[..., :3] * share, share], axis=-1).reshape(height, _FINER, width, _FINER, 4).mean(axis=(1, 3))
-        return np.round(pixels * (1.0 - blocks[..., 3:]) + blocks[..., :3]).astype(np.uint8)
+        found = pixels.copy()
+        for top in range(0, len(pixels), _ROWS):
+            rows = found[top : top + _ROWS]
+            drawn = self._sheet.crop((0, _FINER * top, _FINER * self._size[0], _FINER * (top + len(rows))))
+            if drawn.getbbox() is not None:
+                rows[:] = _laid_over(rows, np.asarray(drawn, float))
+        return found
 
     def labels(self, shown: Labels) -> None:
         """Curves first, then names on their backdrops."""
@@ -114,6 +116,15 @@ class Sheet:
     def _box(self, left: float, top: float, right: float, bottom: float, colour: tuple[int, ...], *, outline: bool = False) -> None:
         corners = tuple(_FINER * value for value in (left, top, right, bottom))
         self._pen.rectangle(corners, colour, (*_bytes(_TEXT), 255) if outline else None, 2)
+
+
+def _laid_over(pixels: np.ndarray, sheet: np.ndarray) -> np.ndarray:
+    """Rows of a picture with those of the `sheet` laid over them."""
+    # Colours with their opacity, or what is beside a line would darken it.
+    share = sheet[..., 3:] / 255.0
+    height, width = pixels.shape[:2]
+    blocks = np.concatenate([sheet[..., :3] * share, share], axis=-1).reshape(height, _FINER, width, _FINER, 4).mean(axis=(1, 3))
+    return np.round(pixels * (1.0 - blocks[..., 3:]) + blocks[..., :3]).astype(np.uint8)
 
 
 def pieces(places: np.ndarray) -> list[np.ndarray]:
