@@ -5,7 +5,7 @@ import math
 import pytest
 
 from blackhole_gl.planning import plan
-from blackhole_gl.rendering import frame, programs
+from blackhole_gl.rendering import frame, programs, structure
 from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.scene import Scene, presets
 
@@ -88,15 +88,15 @@ def test_what_is_taken_for_the_same_text_is_the_same(preset):
     here, like = plan(presets.load([preset])), 0
     for values in MOVES:
         there = plan(presets.load([preset], values))
-        if programs._same_text(here, there):
+        if structure.same_text(here, there):
             like += 1
-            assert programs._structure_of(here) == programs._structure_of(there), values
+            assert structure.structure_of(here) == structure.structure_of(there), values
     assert like
 
 
 def test_a_camera_that_only_moves_is_asked_once_for_what_its_programs_are_made_of(renderer, monkeypatch):
-    asked, plain = [], programs._structure_of
-    monkeypatch.setattr(programs, "_structure_of", lambda made: asked.append(made) or plain(made))
+    asked, plain = [], structure.structure_of
+    monkeypatch.setattr(programs, "structure_of", lambda made: asked.append(made) or plain(made))
     scene = presets.load(["kerr"])
     for turn in range(5):
         made = plan(scene.with_values({"camera.inclination_deg": 60.0 + turn, "camera.azimuth_deg": 10.0 * turn}))
