@@ -95,7 +95,7 @@ Sight sight_from_camera(vec2 energy) {
 #else
     float pixels = 1.0 / block_side;
 #endif
-    vec3 wide = vec3(pixels * picture_scale / camera_w, 0.0, 0.0);
+    vec3 wide = vec3(pixels * pixel_at_hole(), 0.0, 0.0);
     return Sight(vec3(0.0), vec3(0.0), energy.x, energy.y, true, -1, Momentum(0.0, vec3(0.0)), wide, wide);
 }
 #endif
@@ -178,8 +178,11 @@ void main() {
 #if RAYS_LIGHT_TRAVEL && !FROM_CAMERA
     s = ray_delayed(s, met.delay);
 #endif
-    Here here = here_at(orbit, s, first, end, left, ENDS_LIT, vec3(0.0));
     bool over = !any, meets_disk = stretch > 0;
+#if FROM_CAMERA
+    if (camera_w == 0.0) come_from_infinity(orbit, s, start.n, stretch, meets_disk);
+#endif
+    Here here = here_at(orbit, s, first, end, left, ENDS_LIT, vec3(0.0));
     int surfaces = 0, edged = edged_media();  // surfaces of those that it leaves; whether it goes into the one that it begins at is rounding
     int pieces = 0;  // of which light has been gathered; kept as the first alpha, for tests and charts
     for (int i = 0; i < MOST_VISITS; ++i) {

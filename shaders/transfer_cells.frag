@@ -1,6 +1,7 @@
 #version 330 core
 // What rays of a coarse grid have gone through → for each of its cells, by its lower left ray: the fate that its four rays share, and SEEN more where any meets a medium, if they have one and the same history
-// (fate, surfaces of media, crossings of the disk's plane; where none of these is near the disk it makes no difference how many there are); else below 0. For transfer_marks.frag.
+// (fate, surfaces of media, crossings of the disk's plane; where none of these is near the disk it makes no difference how many there are) and light that does not bend too much between them; else below 0.
+// For transfer_marks.frag.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -25,6 +26,20 @@ float spread(vec3 a, vec3 b, vec3 c, vec3 d) {
     return max(max(most.x, most.y), most.z);
 }
 
+uniform float most_bent;  // of light from ray to ray, against how bright it is there: between two of three, linear interpolation is off by an eighth of what they bend
+
+const float FAINT = 0.1;  // light as exposed of which less is not worth a ray
+
+float bend(ivec2 ray, ivec2 aside) {
+    vec3 a = texel(gathered0, max(ray - aside, 0)).rgb, b = texel(gathered0, ray).rgb, c = texel(gathered0, ray + aside).rgb, most = max(max(a, b), c);
+    vec3 bent = abs(a - 2.0 * b + c) / (most + FAINT * exp2(-post_exposure));
+    return max(max(bent.x, bent.y), bent.z);
+}
+
+float bends(ivec2 ray) {
+    return max(bend(ray, ivec2(1, 0)), bend(ray, ivec2(0, 1)));
+}
+
 void main() {
     ivec2 ray = ivec2(gl_FragCoord.xy);
     vec4 gains0 = texel(gathered0, ray), gains1 = texel(gathered0, ray + ivec2(1, 0)), gains2 = texel(gathered0, ray + ivec2(0, 1)), gains3 = texel(gathered0, ray + 1);
@@ -36,5 +51,6 @@ void main() {
 #endif
     four = mod(four, vec4(all(lessThan(four, vec4(NEAR_DISK))) ? ONE_CROSSING : NEAR_DISK));
     float seen = gains0.a + gains1.a + gains2.a + gains3.a > 0.0 ? SEEN : 0.0;
-    cell = four.yzw == four.xxx ? mod(four.x, ONE_SURFACE) + seen : -1.0;
+    bool bent = max(max(bends(ray), bends(ray + ivec2(1, 0))), max(bends(ray + ivec2(0, 1)), bends(ray + 1))) > most_bent;
+    cell = !bent && four.yzw == four.xxx ? mod(four.x, ONE_SURFACE) + seen : -1.0;
 }

@@ -46,7 +46,7 @@ void main() {
     Light light[ORDERS + 1];
     for (int n = 0; n <= ORDERS; ++n) light[n] = Light(vec3(0.0), vec3(1.0));
     vec3 left = vec3(1.0);
-    float wide = footprint * picture_scale / camera_w;
+    float wide = footprint * pixel_at_hole();
     ivec2 ray = ivec2(gl_FragCoord.xy);
     int number = 0;
     bool goes_on;

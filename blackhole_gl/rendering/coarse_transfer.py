@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -33,6 +34,10 @@ FINE, FINE_IN_MOTION = 1e-3, 0.05
 
 LAGS = 0.25
 """Scene time in r_s/c by which a part of a moving pattern may stay behind the rest: a brush of light moves by less than a pixel in it."""
+
+MOST_BENT = 0.6
+"""How much light may bend from ray to ray of a grid, against how bright it is there, for that between them to be joined. A pattern bends everywhere, and is
+blurred to what the grid has of it."""
 
 _A_FRAME = 30_000  # rays of a grid that are marched between two pictures for one to come
 
@@ -69,10 +74,11 @@ class MediaApart:
 def of(inputs: FrameInputs, *, moving: bool, passes: bool) -> MediaApart | None:
     """How media are drawn under a `moving` camera, in a picture that `passes` with its moment, or in one that stays; None: with all else.
 
-    Things are met in order with them, a field has to be gone into, and parallel rays come from nowhere.
+    Things are met in order with them, a field has to be gone into, and parallel rays come from nowhere, but in Mino time.
     """
     plan = inputs.plan
-    apart = plan.scene.media and not plan.scene.things and plan.scene.camera.distance < 1e6 and not plan.model.traits.field and plan.scene.rays.refine
+    begins = plan.scene.camera.distance < math.inf or plan.model.traits.marches_in == "mino"
+    apart = plan.scene.media and not plan.scene.things and begins and not plan.model.traits.field and plan.scene.rays.refine
     if not apart or plan.scene.post.view != "picture":
         return None
     if not (moving or passes and changes(plan)):
@@ -271,6 +277,7 @@ class CoarseTransfer:
     def _mark(self, asked: _Asked, made: CoarseTargets) -> None:
         cells = self._programs.get("transfer_cells.frag", asked.media.inputs)
         cells.sample(named(made.grid))
+        cells.set(most_bent=math.inf if changes(asked.media.inputs.plan) else MOST_BENT)
         made.cells.frame.use()
         self._ctx.disable(moderngl.BLEND | moderngl.DEPTH_TEST)
         cells.draw()

@@ -168,6 +168,17 @@ bool is_near_disk(vec3 y) {
 }
 #endif
 
+// The first step of a parallel ray, in Mino time, from the direction n, where no place has numbers: to twice as far as all that may be met, or less near.
+void come_from_infinity(Orbit orbit, inout State s, vec3 n, inout int stretch, inout bool meets_disk) {
+    s = march_step(orbit, s, min(ray_plain_step(orbit, s), 0.25 / meeting_reach));
+#if ORDERS > 0
+    vec3 x = path_point(ray_path(orbit, s));
+    bool crosses = crosses_plane(vec2(disk_height(n), disk_height(x)), x);
+    stretch = crosses ? min(stretch + 1, ORDERS) : stretch;
+    meets_disk = meets_disk || crosses && is_near_disk(x);
+#endif
+}
+
 // On through empty space, to where the next step, no longer than it is to the nearest medium, leads into one, or to where the ray is over. Steps go farther than that
 // where what is known at both ends says that nothing lies between (Keinert et al. 2014): most of all where the ray goes away from what is nearest. They are of the parameter
 // of the march, by the speed that the ray has where they begin: outwards it may gain so much that one leads beyond all media, and is taken anew, as much shorter.

@@ -32,6 +32,11 @@ vec2 picture_place(vec2 fragment) {
 }
 #endif
 
+// How wide a pixel is at the hole, r_s. picture_scale is half a pixel's width at distance 1, or in M for a camera at infinity.
+float pixel_at_hole() {
+    return camera_w > 0.0 ? picture_scale / camera_w : picture_scale;
+}
+
 #if CAMERA_PROJECTION_PERSPECTIVE
 // Where the pixel at `place` looks, in the frame of the view (back, down, right); (−1, −β, α) in M for a camera at infinity.
 vec3 pixel_direction(vec2 place) {
