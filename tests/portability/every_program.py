@@ -169,7 +169,8 @@ def _of_instances() -> Iterator[Wanted]:
                 yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
                 yield "reach_marks.frag", f"{kind} by {model}", made, {}
                 if made.meetings == 1:
-                    filled = *((f"refine_{name}.frag", {}) for name in ("marks", "things", "bends", "fill", "half_marks")), ("refine_cells.frag", FILLED)
+                    plain = ("marks", "things", "bends", "fill", "half_marks", "half_put")
+                    filled = *((f"refine_{name}.frag", {}) for name in plain), ("refine_cells.frag", FILLED)
                     halves = ((f"refine_half_{name}.frag", {"MEETINGS": seeking}) for name in ("cells", "fill") for seeking in (0, 1))
                     yield from ((path, f"{kind} by {model}", made, switches) for path, switches in (*filled, *halves))
 
