@@ -62,15 +62,6 @@ class ChartScene:
         """Angle in radians of one pixel of a picture 1080 pixels high, at its middle."""
         return math.radians(self.scene.camera.fov_deg) / FULL_HD
 
-    @property
-    def _moves(self) -> bool:
-        """Whether the hole's centre may be seen elsewhere than straight inwards."""
-        return observer.is_moving(self.scene.camera)
-
-    @cached_property
-    def _observer(self) -> observer.Observer:
-        return observer.observe(true_scene(self.scene))
-
     @cached_property
     def pixels(self) -> np.ndarray:
         """(count, 2) integers: x and y, from the bottom left, of the pixels of a picture of `REFINED_SIZE` whose rays come first in `rays`."""
@@ -89,8 +80,8 @@ class ChartScene:
         chi_near = rng.uniform(-np.pi, np.pi, self.count // 10)
         epsilon = 10.0 ** rng.uniform(-6.0, math.log10(NEAR_CRITICAL), len(chi_near)) * rng.choice([-1.0, 1.0], len(chi_near))
         near = critical_radius(self.scene, chi_near) * (1.0 + epsilon)
-        if self._moves:
-            near, chi_near = observer.screen_angles(lensed_circles.directions(self._observer, near, chi_near))
+        if observer.is_moving(self.scene.camera):  # the hole's centre may be seen elsewhere than straight inwards
+            near, chi_near = observer.screen_angles(lensed_circles.directions(observer.observe(true_scene(self.scene)), near, chi_near))
         radius, chi = np.append(radius, near), np.append(chi, chi_near)
         return np.stack([radius * np.cos(chi), radius * np.sin(chi)] if at_infinity else [radius, chi], axis=-1)
 
@@ -106,16 +97,8 @@ class ChartScene:
 
     @cached_property
     def epsilon(self) -> np.ndarray:
-        """(N,) relative distance |ε| of each ray from the critical curve; infinite in a field, which has none."""
-        if is_field(self.scene):
-            return np.full(len(self.rays), np.inf)
-        if math.isinf(self.scene.camera.distance):
-            radius, chi = np.hypot(*self.rays.T), np.arctan2(self.rays[:, 1], self.rays[:, 0])
-        else:
-            radius, chi = self.rays.T
-            if self._moves:
-                radius, chi = lensed_circles.from_hole(self._observer, observer.local_directions(radius, chi))
-        return np.abs(radius / critical_radius(self.scene, chi) - 1.0)
+        """That of each ray, (N,): see `from_critical`."""
+        return from_critical(self.scene, self.rays)
 
     @cached_property
     def truth(self) -> TracedRays:
@@ -133,6 +116,19 @@ def true_scene(scene: Scene) -> Scene:
         return scene.with_values({"rays.lensing": True, "rays.orders": 3})
     kerr = scene.hole.spin != 0.0 or is_inside(scene)
     return scene.with_values({"rays.model": "kerr" if kerr else "schwarzschild", "rays.lensing": True, "rays.orders": 3})
+
+
+def from_critical(scene: Scene, rays: np.ndarray) -> np.ndarray:
+    """(N,) relative distance |ε| of `rays` (N, 2) of a scene that `is_physical` from the critical curve; infinite in a field, which has none."""
+    if is_field(scene):
+        return np.full(len(rays), np.inf)
+    if math.isinf(scene.camera.distance):
+        radius, chi = np.hypot(*rays.T), np.arctan2(rays[:, 1], rays[:, 0])
+    else:
+        radius, chi = rays.T
+        if observer.is_moving(scene.camera):
+            radius, chi = lensed_circles.from_hole(observer.observe(true_scene(scene)), observer.local_directions(radius, chi))
+    return np.abs(radius / critical_radius(scene, chi) - 1.0)
 
 
 def critical_radius(scene: Scene, chi: np.ndarray) -> np.ndarray:
