@@ -200,7 +200,12 @@ def _coordinates(
     there = tuple(name for name, values in given.items() if values is not None)
     if there != wanted:
         raise ValueError(f"rays: got {', '.join(there) or 'nothing'}; this camera (camera.distance = {scene.camera.distance:g}) takes {' and '.join(wanted)}")
-    first, second = np.broadcast_arrays(*(np.asarray(given[name], float) for name in wanted))
+    arrays = [np.asarray(given[name], float) for name in wanted]
+    try:
+        first, second = np.broadcast_arrays(*arrays)
+    except ValueError:
+        shapes = " and ".join(f"{name} of shape {values.shape}" for name, values in zip(wanted, arrays))
+        raise ValueError(f"rays: got {shapes}; allowed are shapes that broadcast") from None
     if not (np.isfinite(first).all() and np.isfinite(second).all()):
         raise ValueError(f"rays: allowed are finite {' and '.join(wanted)}")
     if wanted == listed_rays.ANGLES and ((first < 0.0) | (first > math.nextafter(math.pi, 4.0))).any():

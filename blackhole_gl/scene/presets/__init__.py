@@ -247,6 +247,8 @@ def _is_path(name_or_path: str | Path) -> bool:
 
 def _overridden(scene: Scene, overrides: Mapping[str, Any], source: str) -> Scene:
     """`scene` with the overrides put in, kinds first: they make the instances that others may be about."""
+    if strange := [key for key in overrides if not isinstance(key, str)]:
+        raise PresetError(f"got the key {strange[0]!r}; allowed are keys in words, as hole.spin", source=source)
     kinds = {key for key in overrides if (place := instances.place_of(key)) is not None and place.parameter == KIND}
     values: dict[str, Any] = {}
     for key in sorted(overrides, key=lambda key: key not in kinds):
