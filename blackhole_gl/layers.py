@@ -14,14 +14,16 @@ from . import listed_rays
 from .measure.visibilities import SkyPicture
 from .output.carried import SCENE
 from .output.files import write_whole
-from .physics import angular_size, projection
+from .physics import angular_size, observer, projection
 from .planning import plan
+from .rendering import instances
 from .rendering.frame import Renderer
 from .scene import Scene, presets
 from .shapes import Float, Int
 
 SUFFIXES = (".exr", ".fits", ".npz")
 _RAYS_AT_ONCE = 1 << 18
+_CHANNELS = {"depth": "Z"}  # that OpenEXR has a name for
 
 
 class LayersError(ValueError):
@@ -39,6 +41,8 @@ class Layers:
         r, phi: of the crossing, in r_s and radians.
         g: E_infinity/E_emitter of the matter there.
         delay: of its light on the way to the camera, in r_s/c (`listed_rays.TracedRays.crossing_delay`); NaN also for ray models that do not tell.
+        depth: how far off that is which is seen first, a thing or that crossing, in r_s: straight from the camera, or for one at infinity along its
+            rays from the plane through the hole; NaN where neither is.
     """
 
     radiance: Float[np.ndarray, "height width 3"]
@@ -48,6 +52,7 @@ class Layers:
     phi: Float[np.ndarray, "height width"]
     g: Float[np.ndarray, "height width"]
     delay: Float[np.ndarray, "height width"]
+    depth: Float[np.ndarray, "height width"]
 
 
 def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> Layers:
@@ -59,17 +64,45 @@ def measured(renderer: Renderer, scene: Scene, time: float, size: tuple[int, int
     light = renderer.still_radiance(scene, time, size, samples)
     listed = listed_rays.pixel_rays(scene, size).reshape(-1, 2)
     found = [listed_rays.trace_by_shader(renderer, scene, listed[first : first + _RAYS_AT_ONCE]) for first in range(0, len(listed), _RAYS_AT_ONCE)]
-    names = ("fate", "crossing_r", "crossing_phi", "crossing_g", "crossing_delay")
-    fate, r, phi, g, delay = (np.concatenate([getattr(part, name) for part in found]) for name in names)
+    names = ("fate", "crossing_r", "crossing_phi", "crossing_g", "crossing_delay", "crossing_theta")
+    fate, r, phi, g, delay, theta = (np.concatenate([getattr(part, name) for part in found]) for name in names)
     made = plan(scene)
     with np.errstate(invalid="ignore"):
         shows = (r >= made.disk_edge) & (r <= made.disk_outer) & scene.disk.enabled
     shows &= np.arange(r.shape[1]) < made.orders
     order = np.where(shows.any(axis=1), np.argmax(shows, axis=1), -1)
-    taken = (np.take_along_axis(values, np.maximum(order, 0)[:, None], 1)[:, 0] for values in (r, phi, g, delay))
-    first = [np.where(order < 0, np.nan, values).astype(np.float32) for values in taken]
+    taken = (np.take_along_axis(values, np.maximum(order, 0)[:, None], 1)[:, 0] for values in (r, phi, g, delay, theta))
+    r, phi, g, delay, theta = (np.where(order < 0, np.nan, values) for values in taken)
+    place = r[:, None] * np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
+    depth = _depth(scene, _before_things(renderer, scene, listed, order, place))
     shape = size[1], size[0]
-    return Layers(light, *(values.reshape(shape) for values in (fate.astype(np.int32), order.astype(np.int32), *first)))
+    whole, real = (fate, order), (r, phi, g, delay, depth)
+    return Layers(light, *(values.astype(np.int32).reshape(shape) for values in whole), *(values.astype(np.float32).reshape(shape) for values in real))
+
+
+def _before_things(
+    renderer: Renderer, scene: Scene, rays: Float[np.ndarray, "N 2"], order: Int[np.ndarray, " N"], place: Float[np.ndarray, "N 3"]
+) -> Float[np.ndarray, "N 3"]:
+    """`place` of the crossing of that `order` on each ray, or where a thing is met that no such crossing hides."""
+    if not scene.things:
+        return place
+    kinds = [number for number, kind in enumerate(instances.used(scene)) if kind.slot == "thing"]
+    seen = place.copy()
+    for first in range(0, len(rays), _RAYS_AT_ONCE):
+        part = slice(first, first + _RAYS_AT_ONCE)
+        hits = renderer.trace_listed(scene, listed_rays.local_vectors(rays[part], scene))[0]
+        if hits.met is None or hits.met_place is None:
+            continue
+        for k in reversed(range(hits.met.shape[1])):  # the first on the ray last, as it hides the others
+            met = np.isin(hits.met[:, k, 0], kinds) & ((order[part] < 0) | (hits.met[:, k, 2] <= order[part]))
+            seen[part][met] = hits.met_place[met, k]
+    return seen
+
+
+def _depth(scene: Scene, place: Float[np.ndarray, "N 3"]) -> Float[np.ndarray, " N"]:
+    """How far from the camera of `scene` a `place` in r_s is, (N,), as `Layers.depth` has it."""
+    towards, distance = observer.observe(scene).n, scene.camera.distance
+    return -place @ towards if math.isinf(distance) else np.linalg.norm(distance * towards - place, axis=-1)
 
 
 def write(path: Path, layers: Layers, scene: Scene, time: float) -> None:
@@ -115,7 +148,7 @@ def _exr(layers: Layers, scene: Scene, text: str) -> bytes:
     import tempfile  # the library writes to files alone
 
     channels: dict[str, Any] = {"RGB": np.ascontiguousarray(layers.radiance)}
-    channels |= {f"{name}.V": values.astype(np.float32) for name, values in _beside(layers).items()}
+    channels |= {_CHANNELS.get(name, f"{name}.V"): values.astype(np.float32) for name, values in _beside(layers).items()}
     header = {"compression": openexr.ZIP_COMPRESSION, "type": openexr.scanlineimage, SCENE: text}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "layers.exr"
