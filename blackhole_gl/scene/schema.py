@@ -35,6 +35,9 @@ class SceneError(ValueError):
         super().__init__(f"{key}: {message}")
         self.key, self.message, self.entry = key, message, entry
 
+    def __reduce__(self) -> tuple:
+        return ValueError.__new__, (type(self), *self.args), vars(self)  # not by __init__, which takes more than the text
+
 
 def _from_numpy(value: Any) -> Any:
     """`value`, or the number, switch or list of Python's own that a NumPy scalar or array holds."""

@@ -9,7 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from blackhole_gl.physics.flight_files import FlightError
 from blackhole_gl.scene import Scene, SceneError, fields
+from blackhole_gl.scene.presets import PresetError
 from blackhole_gl.scene.schema import Field
 
 NUMBERS = [item for item in fields().values() if item.kind in ("float", "int")]
@@ -103,6 +105,14 @@ def test_errors_name_key_value_and_what_is_allowed(key, value, words):
     assert caught.value.key == key
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "error", [SceneError("things", "got 5; allowed is 4", 2), PresetError("no such key", key="a.b", source="x.toml", line=3), FlightError("x.toml", "no keys")]
+)
+def test_errors_reach_another_process_whole(error: SceneError):
+    found = pickle.loads(pickle.dumps(error))
+    assert type(found) is type(error) and str(found) == str(error) and vars(found) == vars(error)
 
 
 def test_the_disks_inner_edge_is_not_beyond_its_outer_one():
