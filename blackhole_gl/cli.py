@@ -4,6 +4,7 @@ check, desktop and presets."""
 from __future__ import annotations
 
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, TextIO
 
@@ -19,6 +20,7 @@ from .scene import Scene, SceneError, catalogue
 from .scene import presets as preset_files
 from .scene.schema import nearest
 
+_LAYERS = (".exr", ".fits", ".npz")
 _SUITES = ("frames", "weiskopf")
 _FLAGS = ("--measure", "--float64", "--euler", "--no-euler", "--any-file", "--flux", "--keep-frames")  # options that no value follows
 
@@ -131,6 +133,7 @@ def render(
     ] = None,
     linear: Annotated[bool, Option("--linear", help="A PNG of linear radiance, 16 bits a channel, of which 65535 stands for a radiance of 8.")] = False,
     flux: Annotated[bool, Option("--flux", help="Print its flux, and what finer steps and pixels change in it. --out may then be left out.")] = False,
+    dask: Annotated[str | None, Option(metavar="ADDRESS", help="Have the cluster draw its tiles whose scheduler is there, tcp://….", default="none")] = None,
     backend: Backend = "auto",
 ) -> None:
     """Render a picture without a window. The same scene, time and size give the same file."""
@@ -138,12 +141,15 @@ def render(
     if out is None and not flux:
         raise SceneError("--out", "missing; allowed is the PNG to write, or - for standard output; it may be left out with --flux")
     if out is not None:
-        refuse_unwritable(out, (".png", ".jpg", ".jpeg", ".exr", ".fits", ".npz"), "a picture")
+        refuse_unwritable(out, (".png", ".jpg", ".jpeg", *_LAYERS), "a picture")
+    if dask is not None and (out is None or out.suffix.lower() in _LAYERS):
+        got = "no picture" if out is None else f"{out.suffix}, whose layers are measured here"
+        raise SceneError("--dask", f"got {got}; allowed is --out with a PNG or .jpg")
     refuse_unmet(scene, set_)
     if out is not None:
         if linear and out.suffix.lower() not in ("", ".png"):
             raise SceneError("--linear", f"got {out.suffix}; allowed is .png, and .exr, .fits and .npz hold linear radiance anyway")
-        _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend, linear=linear)
+        _render(scene, size_of(size), time_of(time, preset), out, supersample or scene.rays.in_stills, backend, linear=linear, dask=dask)
     if flux:
         _print_flux(scene, size_of(size), time_of(time, preset), backend, sys.stderr if out == Path("-") else sys.stdout)
 
@@ -281,20 +287,24 @@ def _last_scene() -> tuple[Scene, float] | None:
         return None
 
 
-def _render(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str, *, linear: bool = False) -> None:
-    if out.suffix.lower() in (".exr", ".fits", ".npz"):
+def _render(
+    scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str, *, linear: bool = False, dask: str | None = None
+) -> None:
+    if out.suffix.lower() in _LAYERS:
         _render_layers(scene, size, time, out, samples, backend)
         return
+    from . import still_cluster
     from .rendering import still_files
 
     tell_warnings(scene)
     renderer = renderer_by(backend)
-    if linear:
-        still_files.write_linear(renderer, out, scene, time, size, samples)
-        return
-    with Progress("rendering") as progress:
-        for share in still_files.write(renderer, out, scene, time, size, samples):
-            progress(share)
+    with nullcontext() if dask is None else still_cluster.spreading(renderer, dask):
+        if linear:
+            still_files.write_linear(renderer, out, scene, time, size, samples)
+            return
+        with Progress("rendering") as progress:
+            for share in still_files.write(renderer, out, scene, time, size, samples):
+                progress(share)
 
 
 def _render_layers(scene: Scene, size: tuple[int, int], time: float, out: Path, samples: int, backend: str) -> None:

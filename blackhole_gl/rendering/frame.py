@@ -27,11 +27,12 @@ from .post import PostPass, keeps_stars
 from .programs import Programs, Unready
 from .shading import ShadePass
 from .star_layer import StarLayer
-from .stills import TILE, Stills
+from .stills import Stills
 from .structure import chosen
 from .tables import Tables
 from .target import Target
 from .temperatures import TemperatureProfile
+from .tiles import TILE, Kind, Lights, Spread, Tile
 from .turning import TurningPass, Turns, can_turn
 from .uniforms import stars_a_pixel
 
@@ -47,6 +48,7 @@ class Renderer:
         last: what rays of the last picture meet.
         reference_map: the last trace by the most accurate method, for the view that compares with it.
         exposure: what makes automatic exposure up.
+        spread: what draws the tiles of stills in the place of this renderer, which develops them; None: nothing.
         shadings: how many times a hit map has been shaded, for tests.
     """
 
@@ -76,6 +78,7 @@ class Renderer:
         self._radiance_key: tuple | None = None  # where its light stands
         self._picture: Target | None = None
         self._stills = Stills(ctx, self._tile, self._post)
+        self.spread: Spread | None = None
         self._still: np.ndarray | None = None  # the own picture, where it is a still
 
     def render(
@@ -300,7 +303,7 @@ class Renderer:
         Raises:
             As `render`.
         """
-        return self._stills.bands(self._still_plans(moments, size, samples), size, samples, tile)
+        return self._stills.bands(self._still_plans(moments, size, samples), size, samples, tile, self._lights(moments, size, samples))
 
     def still_radiance(self, scene: Scene, time: float, size: tuple[int, int], samples: int = 1) -> np.ndarray:
         """Scene-referred radiance of what `render_still` draws, float32 (height, width, 3), top row first.
@@ -308,7 +311,22 @@ class Renderer:
         Raises:
             As `render`.
         """
-        return self._stills.light(self._still_plans([(scene, time)], size, samples), size, samples)
+        moments = [(scene, time)]
+        return self._stills.light(self._still_plans(moments, size, samples), size, samples, self._lights(moments, size, samples))
+
+    def tiles(
+        self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int, side: int, wanted: Sequence[Tile], kind: Kind
+    ) -> list[np.ndarray]:
+        """The light of the tiles `wanted`, of `side` pixels, of what `bands` draws: what another renderer's `spread` asks of this one. Each is
+        (height, width, 4) of the type `kind`, row 0 at the bottom.
+
+        Raises:
+            As `render`.
+        """
+        return self._stills.tiles(self._still_plans(moments, size, samples), size, samples, side, wanted, kind)
+
+    def _lights(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int) -> Lights | None:
+        return None if self.spread is None else partial(self.spread, moments, size, samples)
 
     def _gathered(self, moments: Sequence[tuple[Scene, float]], size: tuple[int, int], samples: int, tile: int) -> Iterator[float]:
         """Has the own picture drawn; yields the share done."""

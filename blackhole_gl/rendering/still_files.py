@@ -10,7 +10,7 @@ from ..physics import projection
 from ..scene import Camera, Scene, presets
 from .annotation import annotated, is_annotated
 from .frame import Renderer
-from .stills import TILE
+from .tiles import TILE
 
 SUFFIXES = (".png", *jpeg.SUFFIXES)
 

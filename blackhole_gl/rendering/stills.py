@@ -10,29 +10,21 @@ import math
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import moderngl
 import numpy as np
 
 from ..physics import projection
 from ..planning import Plan
+from . import tiles
 from .inputs import FrameInputs
 from .post import GLOW_GRID, GLOW_REACH, GLOW_SHRINKS, PostPass
-from .stereo import STRIP, Eyes
 from .target import Target
-
-TILE = 512
-"""Side in pixels of the tiles of a still; even, so that pixel quads never straddle two."""
-
-# About a tile, drawn with it and left out: whether a pixel is at an edge depends on those beside it. Even, as the tiles are.
-_MARGIN = 2
-
+from .tiles import TILE, Kind, Light, Lights, Place, Tile, View
 
 _BAND_PIXELS = 1 << 22  # in a band, or a row of tiles where that is more
 _MOST_WIDE = 8192  # pixels of a texture, along either side: drivers end at 16384
-
-Place = tuple[int, int]
-"""(x, y) of a pixel from the bottom left."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +58,7 @@ class Stills:
         self._target: Target | None = None
 
     def bands(
-        self, moments: Sequence[tuple[Plan, float]], size: tuple[int, int], samples: int, tile: int = TILE
+        self, moments: Sequence[tuple[Plan, float]], size: tuple[int, int], samples: int, tile: int = TILE, lights: Lights | None = None
     ) -> Iterator[tuple[float, np.ndarray | None]]:
         """Draws the mean light of `moments`, (plan, time), developed as the middle one: the share done, after each tile and with rows that are finished, uint8
         (rows, width, 3) from the top of the picture down, or None.
@@ -74,30 +66,41 @@ class Stills:
         Args:
             samples: rays a pixel along each axis.
             tile: side of the tiles in pixels; even.
+            lights: what draws the tiles in the place of this.
 
         Raises:
             ValueError: all light of a picture is needed at once, which the driver has no texture for.
         """
-        views = _views(moments, size)
+        views = tiles.views(moments, size)
         if _needs_all(moments[0][0]):
             self._refuse_larger_than_a_texture(size)
         if size[0] * size[1] <= tile * tile and max(size) <= _MOST_WIDE:  # one is enough, whatever its shape
             tile = -(-max(size) // GLOW_GRID) * GLOW_GRID
+        wanted = ((k, place) for k, view in enumerate(views) for rows in _bands_of(view, tile) for place in view.places(*rows, tile))
+        drawn = (lights or self._lights(views, samples))(tile, wanted, np.float16)
         for number, view in enumerate(views):
-            for share, rows in self._view_bands(view, samples, tile):
+            for share, rows in self._view_bands(view, tile, drawn):
                 yield (number + share) / len(views), rows
 
-    def light(self, moments: Sequence[tuple[Plan, float]], size: tuple[int, int], samples: int) -> np.ndarray:
-        """The mean radiance of `moments`, float32 (height, width, 3), top row first."""
-        views = _views(moments, size)
+    def light(self, moments: Sequence[tuple[Plan, float]], size: tuple[int, int], samples: int, lights: Lights | None = None) -> np.ndarray:
+        """The mean radiance of `moments`, float32 (height, width, 3), top row first; `lights` as in `bands`."""
+        views = tiles.views(moments, size)
         found = np.empty((size[1], size[0], 3), np.float32)
-        for number, view in enumerate(views):
-            top = size[1] - number * view.size[1]  # rows from the bottom
-            upwards = found[::-1][top - view.size[1] : top]
-            for _, (x, y), part in self._tiles(view, samples, TILE, view.places(0, view.size[1], TILE)):
-                if part is not None:
-                    upwards[y : y + part.shape[0], x : x + part.shape[1]] = part[..., :3]
+        wanted = [(number, place) for number, view in enumerate(views) for place in view.places(0, view.size[1], TILE)]
+        drawn = (lights or self._lights(views, samples))(TILE, wanted, np.float32)
+        for (number, (x, y)), part in zip(wanted, (light for _, light in drawn if light is not None)):
+            high = views[number].size[1]
+            top = size[1] - number * high  # rows from the bottom
+            upwards = found[::-1][top - high : top]
+            upwards[y : y + part.shape[0], x : x + part.shape[1]] = part[..., :3]
         return found
+
+    def tiles(
+        self, moments: Sequence[tuple[Plan, float]], size: tuple[int, int], samples: int, side: int, wanted: Sequence[Tile], kind: Kind
+    ) -> list[np.ndarray]:
+        """The mean light of `moments` in each of the tiles `wanted`, as what `lights` of `bands` is asked for."""
+        drawn = self._lights(tiles.views(moments, size), samples)(side, wanted, kind)
+        return [light for _, light in drawn if light is not None]
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -115,13 +118,16 @@ class Stills:
             text = f"at most {most} pixels a side with post.lens, post.beam or post.colours, which need all of a picture at once"
             raise ValueError(f"size: got {width}x{height}; allowed is {text}")
 
-    def _view_bands(self, view: _View, samples: int, tile: int) -> Iterator[tuple[float, np.ndarray | None]]:
+    def _lights(self, views: Sequence[View], samples: int) -> Lights:
+        return partial(tiles.drawn, self._draw, views, samples)
+
+    def _view_bands(self, view: View, tile: int, drawn: Iterator[Light]) -> Iterator[tuple[float, np.ndarray | None]]:
         plan, time = view.moments[len(view.moments) // 2]
         inputs = FrameInputs.whole(plan, time, view.size)
         glow = _Glow(self._post, inputs) if _glows(plan) else None
         held: deque[_Band] = deque()
         try:
-            for share, band in self._light_bands(view, samples, tile, whole=_needs_all(plan)):
+            for share, band in self._light_bands(view, tile, drawn):
                 yield share, None
                 if band is None:
                     continue
@@ -136,51 +142,24 @@ class Stills:
                 self._free += [part.light for part in band.parts]
             self.release()
 
-    def _light_bands(self, view: _View, samples: int, tile: int, *, whole: bool) -> Iterator[tuple[float, _Band | None]]:
+    def _light_bands(self, view: View, tile: int, drawn: Iterator[Light]) -> Iterator[tuple[float, _Band | None]]:
         """Bands from the top down, and the share done with each of their tiles."""
         width, height = view.size
-        rows = math.lcm(tile, GLOW_GRID)
-        rows = -(-height // rows) * rows if whole else max(min(_BAND_PIXELS // width, _MOST_WIDE) // rows, 1) * rows
-        wide = width if whole else max(min(_MOST_WIDE, width) // math.lcm(tile, GLOW_GRID), 1) * math.lcm(tile, GLOW_GRID)
-        for first in range((height - 1) // rows * rows, -1, -rows):
-            end = min(first + rows, height)
+        whole = math.lcm(tile, GLOW_GRID)
+        wide = width if _needs_all(view.moments[0][0]) else max(min(_MOST_WIDE, width) // whole, 1) * whole
+        for first, end in _bands_of(view, tile):
             parts = tuple(_Part((x, first), self._texture((min(wide, width - x), end - first))) for x in range(0, width, wide))
             places = view.places(first, end, tile)
-            before = (height - end) / height
-            for share, (x, y), light in self._tiles(view, samples, tile, places):
-                done = before + share * (end - first) / height
+            number = 0
+            while number < len(places):
+                share, light = next(drawn)
+                done = (height - end + (number + share) / len(places) * (end - first)) / height
                 if light is not None:
+                    x, y = places[number]
                     part = parts[x // wide]
-                    data = np.ascontiguousarray(light, np.float16)
-                    part.light.write(data, viewport=(x - part.corner[0], y - first, data.shape[1], data.shape[0]))
-                    if (x, y) == places[-1]:
-                        yield done, _Band(first, end, parts)
-                        continue
-                yield done, None
-
-    def _tiles(self, view: _View, samples: int, tile: int, places: Sequence[Place]) -> Iterator[tuple[float, Place, np.ndarray | None]]:
-        """Draws one ray a pixel of one tile at a time: the share done, the tile's lower left corner and, when all its rays are there, their mean radiance,
-        (height, width, 4) with row 0 at the bottom, float16 of a single one, else float32."""
-        width, height = view.size
-        number, rays = 0, samples * samples * len(view.moments)
-        for x, y in places:
-            total: np.ndarray | None = None
-            wide, high = min(view.tile_width(tile), width - x), min(tile, height - y)
-            left, bottom = max(x - _MARGIN, view.least[0]), max(y - _MARGIN, view.least[1])
-            drawn = min(x + wide + _MARGIN, width - view.least[0]) - left, min(y + high + _MARGIN, height - view.least[1]) - bottom
-            for k in range(rays):
-                moment, sample = divmod(k, samples * samples)
-                shift = [(part + 0.5) / samples - 0.5 for part in (sample % samples, sample // samples)]
-                plan, time = view.moments[moment]
-                inputs = FrameInputs(view.plan_at(plan, x), time, drawn, view.size, (left + shift[0], bottom + shift[1]))
-                light = _light_of(self._draw(inputs))[y - bottom : y - bottom + high, x - left : x - left + wide]
-                if rays > 1:
-                    total = np.zeros(light.shape, np.float32) if total is None else total
-                    total += np.multiply(light, np.float32(1.0 / rays), dtype=np.float32)
-                else:
-                    total = light
-                number += 1
-                yield number / (len(places) * rays), (x, y), total if k + 1 == rays else None
+                    part.light.write(light, viewport=(x - part.corner[0], y - first, light.shape[1], light.shape[0]))
+                    number += 1
+                yield done, _Band(first, end, parts) if number == len(places) else None
 
     def _developed(self, inputs: FrameInputs, band: _Band, glow: _Glow | None) -> np.ndarray:
         """The rows of `band`, top row first; its textures are free then."""
@@ -211,39 +190,6 @@ class Stills:
                 self._target.release()
             self._target = Target.of(self._ctx, [self._ctx.texture(size, 4, dtype="f1")])
         return self._target
-
-
-@dataclass(frozen=True)
-class _View:
-    """A picture by one camera, or by one eye.
-
-    Attributes:
-        moments: (plan, time) whose mean it is.
-        eyes: where it stands in every column; None of one that stands still.
-        goes_round: whether left and right border, and either half of the upper and of the lower, are neighbours.
-    """
-
-    moments: tuple[tuple[Plan, float], ...]
-    size: tuple[int, int]
-    eyes: Eyes | None
-    goes_round: bool
-
-    @property
-    def least(self) -> Place:
-        """Of the pixels that tiles may draw beside their own, the least."""
-        return (-_MARGIN, -_MARGIN) if self.goes_round else (0, 0)
-
-    def tile_width(self, tile: int) -> int:
-        """Of tiles `tile` high."""
-        return tile if self.eyes is None else min(tile, STRIP)
-
-    def places(self, first: int, end: int, tile: int) -> list[Place]:
-        """The lower left corners of the tiles in rows `first` to `end`."""
-        return [(x, y) for y in range(first, end, tile) for x in range(0, self.size[0], self.tile_width(tile))]
-
-    def plan_at(self, plan: Plan, column: int) -> Plan:
-        """`plan` where the tile from `column` on is seen from."""
-        return plan if self.eyes is None else self.eyes.plan(plan, column)
 
 
 class _Glow:
@@ -304,17 +250,10 @@ def _needs_all(plan: Plan) -> bool:
     return post.lens or post.beam or post.colours != "light"
 
 
-def _views(moments: Sequence[tuple[Plan, float]], size: tuple[int, int]) -> list[_View]:
-    """From the top of the picture down."""
-    camera = moments[0][0].scene.camera
-    round_ = projection.goes_round(camera)
-    if camera.projection != projection.STEREO:
-        return [_View(tuple(moments), size, None, round_)]
-    half = size[0], size[1] // 2
-    return [_View(tuple(moments), half, Eyes(side, half[0]), round_) for side in (-1.0, 1.0)]
-
-
-def _light_of(target: Target) -> np.ndarray:
-    """float16 (height, width, 4), row 0 at the bottom. Waits for the GPU."""
-    width, height = target.size
-    return np.frombuffer(target.texture.read(), np.float16).reshape(height, width, 4)
+def _bands_of(view: View, tile: int) -> Iterator[tuple[int, int]]:
+    """First row and end of each band of `view`, from the top down: whole rows of tiles, and of what glows."""
+    width, height = view.size
+    rows = math.lcm(tile, GLOW_GRID)
+    rows = -(-height // rows) * rows if _needs_all(view.moments[0][0]) else max(min(_BAND_PIXELS // width, _MOST_WIDE) // rows, 1) * rows
+    for first in range((height - 1) // rows * rows, -1, -rows):
+        yield first, min(first + rows, height)

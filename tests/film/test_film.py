@@ -14,7 +14,7 @@ import av
 import numpy as np
 import pytest
 
-from blackhole_gl import film, film_cluster, films
+from blackhole_gl import cluster, film, film_cluster, films
 from blackhole_gl.output import film_file, png, spherical
 from blackhole_gl.physics import flight_files
 from blackhole_gl.rendering.frame import Renderer
@@ -221,10 +221,10 @@ if __name__ == "__main__":
 def test_a_cluster_that_is_not_there_is_told(made: film.Film, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import dask
 
-    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}), pytest.raises(film.FilmError, match="--dask: got 'tcp://127.0.0.1:9'"):
+    with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}), pytest.raises(cluster.ClusterError, match="--dask: got 'tcp://127.0.0.1:9'"):
         film_cluster.draw(made, tmp_path, range(1), "tcp://127.0.0.1:9")
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(film.FilmError, match=r"pip install 'blackhole-gl\[cluster\]'"):
+    with pytest.raises(cluster.ClusterError, match=r"pip install 'blackhole-gl\[cluster\]'"):
         film_cluster.draw(made, tmp_path, range(1), "tcp://127.0.0.1:9")
 
 
