@@ -52,7 +52,7 @@ def _start(app: Window) -> Steps:
     """As it opens."""
     app.state.show_panel = True
     yield lambda: app.picture.is_final and app.picture.samples > 1
-    app.start_line.begin(app.state.scene)
+    app.begin_start_line()
     yield lambda: True
 
 

@@ -230,6 +230,10 @@ class Window:
             raise WindowError("the window has no picture before the runner has made its context and called `start`")
         return self._picture
 
+    def begin_start_line(self) -> None:
+        """Shows the line of the start anew."""
+        self._over.start_line.begin(self.state.scene)
+
     def before_frame(self) -> None:
         """Before imgui begins a frame: what the runner is to do follows the state."""
         params = hello_imgui.get_runner_params()
