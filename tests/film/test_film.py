@@ -220,6 +220,7 @@ if __name__ == "__main__":
 
 def test_a_cluster_that_is_not_there_is_told(made: film.Film, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import dask
+    import distributed  # noqa: F401  its defaults, had they come while the timeout is set, would go with it, for the tests after this one too
 
     with dask.config.set({"distributed.comm.timeouts.connect": "0.2s"}), pytest.raises(cluster.ClusterError, match="--dask: got 'tcp://127.0.0.1:9'"):
         film_cluster.draw(made, tmp_path, range(1), "tcp://127.0.0.1:9")
