@@ -53,12 +53,13 @@ def test_a_picture_from_the_window_is_what_render_writes(values: dict[str, objec
 def test_what_is_held_of_a_picture_does_not_grow_with_its_height(renderer: Renderer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stills, "_BAND_PIXELS", 1)  # bands as low as they can be
     held = []
-    for height in (1536, 3072):
+    for height in (3072, 6144):
         tracemalloc.start()
         try:
             _made(renderer, Order(presets.load(["kerr"]), 0.0, (1024, height), 1, tmp_path / f"{height}.png"))
             held.append(tracemalloc.get_traced_memory()[1])
         finally:
             tracemalloc.stop()
-    # All of the higher picture would be 5 MB more, a fifth of what is held.
-    assert held[1] < 1.1 * held[0]
+    # Strips that wait to be packed are more or fewer as threads have it, by 3 MB here; all of the higher picture would be 9 MB more.
+    print(held)
+    assert held[1] - held[0] < 0.5 * 3072 * 1024 * 3
