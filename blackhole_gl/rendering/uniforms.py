@@ -199,6 +199,7 @@ def switches(plan: Plan) -> dict[str, int]:
     found["CAMERA_FALLS"] = int(plan.model.traits.crosses_horizon and plan.scene.camera.observer in observer.FALLING)
     found |= {"INSTANCE_PICTURES": int(bool(pictures.layers(plan.scene)))}
     found |= {"SKY_STARS": stars_a_pixel(plan.scene), "SKY_SHIFTS": int(_sky_shifts(plan.scene))}
+    found["HOLE_SPINS"] = int(plan.space_time.spin != 0.0)
     found |= {"SPACE_TIME_FLAT": int(plan.space_time.kind == "flat"), "IN_FIELD": int(plan.model.traits.field), **defines(), **shear.DEFINES, **_constants()}
     keys, names = _switch_names()
     found |= {name: int(on is True) for name, on in zip(names, plan.scene.several(keys))}

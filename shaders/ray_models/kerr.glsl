@@ -21,6 +21,12 @@ of = ["camera.distance", "hole.spin"]
 ---*/
 // w'' = c₂w + c₃w² + c₄w³,  n'' = −(K + 2a²n_z²)n + a²n_z ẑ,  twist' = −a w (2 − aλw)/((1 − w r₊)(1 − w r₋)).
 // Units M = 1. The world direction is n turned about the spin axis by the twist.
+// Without HOLE_SPINS there is none, which spares what looks along ways its turns: a tenth of a ray that seeks a thing.
+#if HOLE_SPINS
+#define RAY_SPIN hole_spin
+#else
+#define RAY_SPIN 0.0
+#endif
 
 struct Orbit {
     vec3 c;        // c₂, c₃, c₄
@@ -48,7 +54,7 @@ struct State {
 #include "common/ray_time.glsl"
 
 Orbit ray_orbit(RayStart start) {
-    float a = hole_spin;
+    float a = RAY_SPIN;
     float k = dot(start.n_rate, start.n_rate) - a * a * start.n.z * start.n.z;
     float eta = k - start.lambda * start.lambda;
     vec3 c = vec3(a * a - k, 3.0 * (k - a * (2.0 * start.lambda - a)), -2.0 * a * a * eta);
@@ -70,7 +76,7 @@ State ray_init(RayStart start, Orbit orbit, inout Hits hits) {
 }
 
 State ray_rhs(Orbit orbit, State s) {
-    float a = hole_spin;
+    float a = RAY_SPIN;
     float w_force = s.w * (orbit.c.x + s.w * (orbit.c.y + s.w * orbit.c.z));
     float a2_nz = a * a * s.n.z;
     vec3 n_force = -(orbit.k + 2.0 * a2_nz * s.n.z) * s.n;
@@ -86,7 +92,7 @@ State state_step(State s, float h, State k) {
 // At the horizon φ and its twist have a pole. For a camera that falls the azimuth is φ~ = φ − ∫ a/Δ dr from r to infinity, which stays along light that falls straight in; with it
 // the pole cancels: (p + w')(p − w') = K_C w² Δ w², p = P w²/|E|. Outside, φ is had back in closed form.
 float ingoing_twist(Orbit orbit, float w, float w_rate) {
-    float a = hole_spin, p = orbit.energy * (1.0 + (a * a - orbit.a_lambda) * w * w);
+    float a = RAY_SPIN, p = orbit.energy * (1.0 + (a * a - orbit.a_lambda) * w * w);
     vec2 factors = 1.0 - w * hole_w_factors;
     float carter = orbit.k + a * a - 2.0 * orbit.a_lambda;
     float share = w_rate < 0.0 ? carter * w * w / (p - w_rate) : (p + w_rate) / (factors.x * factors.y);
@@ -101,7 +107,7 @@ float radial_square(Orbit orbit, float w) {
 // The twist that gives φ, but inside, where there is none.
 float whole_twist(State s) {
     vec2 factors = 1.0 - s.w * hole_w_factors;
-    float lag = hole_spin / (hole_w_factors.x - hole_w_factors.y) * log(factors.y / max(factors.x, 1e-6));
+    float lag = RAY_SPIN / (hole_w_factors.x - hole_w_factors.y) * log(factors.y / max(factors.x, 1e-6));
     return s.twist + (s.w > 0.0 && factors.x > 0.0 ? lag : 0.0);
 }
 #else
@@ -118,6 +124,7 @@ float whole_twist(State s) {
 #define RAY_QUADRATURE ray_twist
 #endif
 void ray_twist(Orbit orbit, State a, float h, inout State b) {
+#if HOLE_SPINS || CAMERA_FALLS
     float middle = 0.5 * (a.w + b.w) + h * (1.0 / 12.0) * (a.w_rate - b.w_rate);
     float aside = 0.384900179 * (b.w - a.w) - 0.0481125224 * h * (a.w_rate + b.w_rate);  // 2/√27, 1/(4√27)
     vec2 w = vec2(middle - aside, middle + aside);
@@ -131,6 +138,7 @@ void ray_twist(Orbit orbit, State a, float h, inout State b) {
     vec2 rate = w * (2.0 - orbit.a_lambda * w);
     vec2 factors = (1.0 - w * hole_w_factors.x) * (1.0 - w * hole_w_factors.y);
     b.twist = a.twist + 0.5 * h * orbit.drag * (rate.x * factors.y + rate.y * factors.x) / (factors.x * factors.y);
+#endif
 }
 
 #if RAYS_LIGHT_TRAVEL
@@ -197,9 +205,18 @@ float ray_elevation(State s) {
     return s.n.z;
 }
 
-Path ray_path(Orbit orbit, State s) {
+// As curve.glsl has it, and its rate.
+vec2 path_twist(Orbit orbit, State s) {
+#if HOLE_SPINS
     vec2 factors = 1.0 - s.w * hole_w_factors;
-    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), vec2(whole_twist(s), orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y)) AND_TIME(path_time(orbit, s)));
+    return vec2(whole_twist(s), orbit.drag * s.w * (2.0 - orbit.a_lambda * s.w) / (factors.x * factors.y));
+#else
+    return vec2(0.0);
+#endif
+}
+
+Path ray_path(Orbit orbit, State s) {
+    return Path(vec4(s.n, 2.0 * s.w), vec4(s.n_rate, 2.0 * s.w_rate), path_twist(orbit, s) AND_TIME(path_time(orbit, s)));
 }
 
 Momentum ray_momentum(Orbit orbit, State s) {
@@ -207,7 +224,7 @@ Momentum ray_momentum(Orbit orbit, State s) {
 }
 
 float ray_affine_rate(Orbit orbit, State s) {
-    return 0.5 * (1.0 / (s.w * s.w) + hole_spin * hole_spin * s.n.z * s.n.z);  // Σ
+    return 0.5 * (1.0 / (s.w * s.w) + RAY_SPIN * RAY_SPIN * s.n.z * s.n.z);  // Σ
 }
 
 vec2 ray_plane_point(State s) {

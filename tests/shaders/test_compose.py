@@ -43,8 +43,8 @@ def edit(path: Path, old: str, new: str) -> int:
 
 
 def test_a_mistake_names_the_authors_file_and_line(ctx: moderngl.Context, copy: Path) -> None:
-    line = edit(copy / "ray_models" / "kerr.glsl", "float a = hole_spin;", "float a = hole_spinn;")
-    with pytest.raises(ShaderError, match="hole_spinn") as caught:
+    line = edit(copy / "ray_models" / "kerr.glsl", "float a = RAY_SPIN;", "float a = RAY_SPINN;")
+    with pytest.raises(ShaderError, match="RAY_SPINN") as caught:
         Programs(ctx, copy).get("trace.frag", INPUTS)
     assert (caught.value.file, caught.value.line) == ("ray_models/kerr.glsl", line)
 
