@@ -10,7 +10,7 @@ import moderngl
 
 from .boxes import Box
 from .inputs import FrameInputs, UniformBuffers
-from .squares import SquareBuffer, Squares
+from .squares import Patches, SquareBuffer, Squares
 
 Samplers = Mapping[str, moderngl.Texture | moderngl.TextureArray]
 """Sampler's name → texture."""
@@ -111,7 +111,7 @@ class Draw:
             self.draw()
         ctx.scissor = None
 
-    def draw_squares(self, squares: Squares) -> None:
+    def draw_squares(self, squares: Squares | Patches) -> None:
         """Draws `squares` of the bound target alone."""
         self._buffers.bind(self.inputs, self.compiled.names)
         self._squares.draw(self.compiled.squares, squares)

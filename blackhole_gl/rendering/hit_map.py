@@ -25,7 +25,7 @@ from .inputs import FrameInputs
 from .instance_numbers import Number
 from .programs import Programs
 from .ray_blocks import FreshBlocks, RayBlocks
-from .squares import Squares
+from .squares import Patches, Squares
 from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target
@@ -246,6 +246,10 @@ class HitMap:
     def bands(self, where: Where) -> Sequence[Box]:
         """Parts of a map that is not sharp which hold all of its pixels that are `where`."""
         return self._grid.bands(where)
+
+    def patches(self, where: Where) -> Patches | None:
+        """The same as squares, for draws that may cover a pixel twice; None where those are not known."""
+        return self._grid.patches(where)
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""

@@ -17,7 +17,7 @@ from .draw import Draw
 from .hit_texels import textures
 from .inputs import FrameInputs
 from .programs import Programs
-from .squares import Squares
+from .squares import Patches, Squares
 from .target import Target, plain_texture
 
 FILLED = {"CELLS_FILLED": 1}
@@ -28,6 +28,9 @@ _BEYOND_DISK = 1.25
 
 # Rows of cells whose pixels with rays of their own are drawn at a time: as high as the tiles of llvmpipe.
 _BAND = 64 // REFINE_STEP
+
+# Sides in pixels of the squares that hold pixels of one kind: smaller ones take longer to be placed than what lies beside those pixels takes to be drawn.
+_PATCHES = 2 * REFINE_STEP, 8 * REFINE_STEP
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
 _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2"), ("bend2", "f2"))
@@ -156,6 +159,11 @@ class CoarseGrid:
         if where not in self._bands:
             self._bands[where] = list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
         return self._bands[where]
+
+    def patches(self, where: Where) -> Patches | None:
+        """The same as squares, which leave out what lies between; None once `give_own_rays` or `give_things` has changed some, and of pictures narrower than these."""
+        size = self.classes.size
+        return None if self._cells is None or min(size) < _PATCHES[0] else Patches.picked(where.holds(self._cells), REFINE_STEP, _PATCHES, size)
 
     def filled_bands(self) -> Sequence[Box]:
         """Parts of the picture of the last `trace` that hold all cells which one thing fills."""

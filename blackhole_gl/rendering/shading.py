@@ -17,7 +17,7 @@ from .overlays import Overlays
 from .post import TONE_TABLE
 from .programs import Programs
 from .sorting import PixelSorting, Sorted
-from .squares import Squares
+from .squares import Patches, Squares
 from .structure import RAY_SLOTS, SHADE_SLOTS, chosen
 from .tables import Tables
 from .target import Target
@@ -200,7 +200,9 @@ class ShadePass:
         where_flat = hit_map.switches_where_flat()
         in_parts = inputs.plan.meetings > 0  # without things it is nearly everywhere
         if where_flat is not None:
-            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, self._boxes_of(hit_map, FLAT_SKY) if in_parts else None)
+            # Of things, which lie beyond it, the depth test spares none.
+            patches = hit_map.patches(FLAT_SKY) if in_parts else None
+            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, squares=patches)
         sky = self._prepared_sky(inputs, hit_map, hit_map.switches())
         if squares is not None:
             self._draw_classes(sky, EVERYWHERE, squares=squares)
@@ -255,7 +257,7 @@ class ShadePass:
             return hit_map.bands(where)
         return [self._boxes[where]] if where in self._boxes else None
 
-    def _draw_classes(self, prepared: Draw, where: Where, boxes: Sequence[Box] | None = None, squares: Squares | None = None) -> None:
+    def _draw_classes(self, prepared: Draw, where: Where, boxes: Sequence[Box] | None = None, squares: Squares | Patches | None = None) -> None:
         """Draws `where` the pixel's class says, inside `boxes` or in `squares` alone, if such are given."""
         self._ctx.depth_func = where.comparison
         prepared.set(triangle_depth=2.0 * where.depth - 1.0)

@@ -78,6 +78,38 @@ class Squares:
         return np.kron(marked, np.ones((parts, parts), bool))[: -(-size[1] // cell), : -(-size[0] // cell)]
 
 
+@dataclass(frozen=True, eq=False)
+class Patches:
+    """Squares of two sizes.
+
+    Attributes:
+        points: as shaders/fullscreen.vert takes them, float32 (N, 3).
+    """
+
+    points: Float[np.ndarray, "squares 3"]
+
+    @classmethod
+    def picked(cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, int], size: tuple[int, int]) -> Patches:
+        """Those of a picture of `size` that hold all of its `cells`, of `cell` pixels each way, that are picked: squares of the smaller of two `sides` which
+        hold any, and one of the larger, which is a multiple of it, in the place of those that it is full of."""
+        small, large = (side // cell for side in sides)
+        rows, columns = cells.shape
+        left = np.pad(cells, ((0, -rows % large), (0, -columns % large)))
+        full = np.logical_and.reduce(_blocks(left, large), axis=(1, 3))
+        left &= ~full.repeat(large, axis=0).repeat(large, axis=1)
+        some = np.logical_or.reduce(_blocks(left, small), axis=(1, 3))
+        return cls(np.concatenate([Squares.picked(some, sides[0], size).points, Squares.picked(full, sides[1], size).points]))
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+def _blocks(cells: np.ndarray, side: int) -> np.ndarray:
+    """The view (rows, side, columns, side) of `cells`, whose sides are multiples of `side`."""
+    rows, columns = cells.shape
+    return cells.reshape(rows // side, side, columns // side, side)
+
+
 class SquareBuffer:
     """The points of the squares that are drawn next, for all programs of a context."""
 
@@ -95,7 +127,7 @@ class SquareBuffer:
         """What `draw` draws `program` with; of a program that takes no squares, nothing that can be."""
         return self._ctx.vertex_array(program, [(self._buffer, "3f", "square")] if "square" in program else [])
 
-    def draw(self, array: moderngl.VertexArray, squares: Squares) -> None:
+    def draw(self, array: moderngl.VertexArray, squares: Squares | Patches) -> None:
         """Draws `squares` of the bound target; none where there are none."""
         if not len(squares):
             return
