@@ -4,7 +4,7 @@
 
 uniform sampler2D around;
 
-in vec2 place;
+noperspective in vec2 place;
 
 out vec4 colour;
 

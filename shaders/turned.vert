@@ -8,7 +8,7 @@ uniform vec4 around_place;  // from (longitude, latitude) in radians to the plac
 uniform int columns;        // of quads
 uniform vec2 quad;          // their sides, of the picture's 2
 
-out vec2 place;
+noperspective out vec2 place;
 
 const vec2 CORNERS[6] = vec2[6](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, 1.0), vec2(1.0, 0.0), vec2(1.0, 1.0));
 

@@ -13,14 +13,14 @@ from ..rendering.target import Target
 from ..scene import Scene
 from .area import Area
 
-# The place travels from corner to corner instead of being worked out at each pixel: software renderers then have a quick way.
+# The place travels from corner to corner instead of being worked out at each pixel, and is divided by nothing: software renderers then have a quick way.
 _VERTEX = """#version 330 core
-out vec2 place;
+noperspective out vec2 place;
 void main() { place = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2); gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0); }
 """
 _FRAGMENT = """#version 330 core
 uniform sampler2D picture;
-in vec2 place;
+noperspective in vec2 place;
 out vec4 colour;
 void main() { colour = texture(picture, place); }
 """
