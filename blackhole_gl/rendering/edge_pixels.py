@@ -12,7 +12,7 @@ import numpy as np
 from ..glsl.declared import EdgeMark, Fate
 from .boxes import NOWHERE, Box, grown, inside, joined
 from .classes import drawn, own_rays
-from .hit_map import HitMap
+from .hit_map import AS_SHARP, HitMap
 from .inputs import FrameInputs
 from .programs import Programs
 from .sorting import PixelSorting, marks_target, set_hiding
@@ -106,7 +106,7 @@ class EdgePixels:
         box = reduce(joined, (band for where, _ in kinds for band in hit_map.bands(where)), NOWHERE)
         frame.clear(1.0, 1.0, viewport=box)  # no ray
         for where, switches in kinds:
-            marks = self._programs.get("edge_marks.frag", inputs, switches)
+            marks = self._programs.get("edge_marks.frag", inputs, {**AS_SHARP, **switches})
             marks.sample(hit_map.samplers())
             set_hiding(marks)
             with drawn(self._ctx, marks, where):

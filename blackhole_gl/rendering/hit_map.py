@@ -39,6 +39,9 @@ _GENERATIONS = count(1)
 KNOWN: Mapping[str, int] = {"BALLS_KNOWN": 1}
 """The switch of the program whose rays know which balls they may meet."""
 
+AS_SHARP: Mapping[str, int] = {"HIT_MAP_REFINED": 0}
+"""The switches of what reads pixels alone that have rays of their own, in maps that are not sharp, too: no cells are looked up."""
+
 # Share of a picture beyond which changed squares are not worth their own draw.
 _MOST_CHANGED = 0.5
 
@@ -255,7 +258,7 @@ class HitMap:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan
         found = dict(zip(hit_texels.names(plan.orders, plan.meetings, plan.times), self.textures))
-        return {**found, **(self._ray_blocks.samplers if self.is_sharp else self._grid.samplers())}
+        return {**found, **self._ray_blocks.samplers, **({} if self.is_sharp else self._grid.samplers())}
 
     def tell_blocks(self, draw: Draw) -> None:
         """Has a program that draws with `samplers` know which pixels the map's rays are of."""

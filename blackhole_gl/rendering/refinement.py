@@ -161,7 +161,8 @@ class CoarseGrid:
         return self._bands[where]
 
     def patches(self, where: Where) -> Patches | None:
-        """The same as squares, which leave out what lies between; None once `give_own_rays` or `give_things` has changed some, and of pictures narrower than these."""
+        """The same as squares, which leave out what lies between; None once `give_own_rays` or `give_things` has changed some, and of pictures narrower
+        than one."""
         size = self.classes.size
         return None if self._cells is None or min(size) < _PATCHES[0] else Patches.picked(where.holds(self._cells), REFINE_STEP, _PATCHES, size)
 

@@ -11,7 +11,7 @@ from .boxes import Box, box_of, joined
 from .classes import BEYOND_MATTER, EVERYWHERE, FLAT_SKY, MATTER, NO_THINGS, OPEN_THINGS, SKY, THINGS, Where
 from .coarse_transfer import CoarseTransfer, MediaApart
 from .draw import Draw, Samplers
-from .hit_map import HitMap
+from .hit_map import AS_SHARP, HitMap
 from .inputs import FrameInputs
 from .overlays import Overlays
 from .post import TONE_TABLE
@@ -93,11 +93,12 @@ class ShadePass:
         frame.use()
         ctx.enable(moderngl.BLEND)
         if inputs.plan.shows_disk:
-            self._draw_matter(inputs, hit_map, MATTER, *((_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)))
+            switches, behind = (_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)
+            self._draw_matter(inputs, hit_map, MATTER, {**hit_map.switches(), **switches}, behind)
         if apart:
             self._draw_media(inputs, hit_map, None if media is None or media.exact else self.coarse_transfer.shown)
         if inputs.plan.meetings:
-            self._draw_matter(inputs, hit_map, THINGS, {}, _SECOND_OUTPUT)
+            self._draw_matter(inputs, hit_map, THINGS, AS_SHARP, _SECOND_OUTPUT)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
@@ -130,7 +131,7 @@ class ShadePass:
         Alpha becomes the share of the sky's light that is left, where stars may be.
         """
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
-        matter = self._prepared("shade_matter.frag", inputs, hit_map, {**hit_map.switches(), **switches})
+        matter = self._prepared("shade_matter.frag", inputs, hit_map, switches)
         self._draw_classes(matter, where, self._boxes_of(hit_map, where))
 
     def _draw_media(self, inputs: FrameInputs, hit_map: HitMap, shown: Sequence[Box] | None) -> None:
@@ -209,7 +210,7 @@ class ShadePass:
             return
         self._draw_classes(sky, SKY, self._boxes_of(hit_map, SKY) if in_parts else None)
         if in_parts:
-            self._draw_classes(sky, OPEN_THINGS, self._boxes_of(hit_map, OPEN_THINGS))
+            self._draw_classes(self._prepared_sky(inputs, hit_map, AS_SHARP), OPEN_THINGS, self._boxes_of(hit_map, OPEN_THINGS))
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -225,7 +226,7 @@ class ShadePass:
         self.coarse_transfer.release()
         self._sorted = None
 
-    def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
+    def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: Mapping[str, int]) -> Draw:
         prepared = self._prepared("shade_sky.frag", inputs, hit_map, switches)
         if prepared.takes("finer"):  # a sky with stars
             prepared.set(finer=min(inputs.finer))
@@ -235,7 +236,7 @@ class ShadePass:
         """What draws the single stars of a picture that is to be shown enlarged, and was drawn without them; its samplers are still to be bound."""
         return self._programs.get("star_layer.frag", inputs, {**hit_map.switches(), **TONE_TABLE, **switches}), self._samplers(inputs, hit_map)
 
-    def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: dict[str, int]) -> Draw:
+    def _prepared(self, path: str, inputs: FrameInputs, hit_map: HitMap, switches: Mapping[str, int]) -> Draw:
         prepared = self._programs.get(path, inputs, switches)
         prepared.sample(self._samplers(inputs, hit_map))
         hit_map.tell_blocks(prepared)
