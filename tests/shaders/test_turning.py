@@ -159,8 +159,9 @@ def test_it_is_told_which_pictures_only_turn() -> None:
 
 
 def test_a_camera_that_moves_on_keeps_nothing(renderer: Renderer) -> None:
-    """Its frames are those of a camera that moves, whether or not they may be turned ones."""
-    scene = presets.load(["kerr"])
+    """Its frames are those of a camera that moves, whether or not they may be turned ones. Exposed alike: a camera that moves is metered every so many frames,
+    counted on from the pictures before."""
+    scene = presets.load(["kerr"], {"post.exposure_mode": "fixed"})
     moves = [scene.with_values({"camera.yaw_deg": 0.5 * n, "camera.distance": 20.0 - 0.1 * n}) for n in range(4)]
     for n, moved in enumerate(moves):
         shown(renderer, moved, 0.1 * n)
