@@ -22,7 +22,7 @@ from blackhole_gl.measure.scenes import ChartScene
 from blackhole_gl.output.files import write_whole
 from blackhole_gl.output.progress import Progress
 from blackhole_gl.physics.space_time import is_field
-from blackhole_gl.planning import nearest
+from blackhole_gl.planning import hardness
 from blackhole_gl.planning.measured import COLUMNS, Measured
 from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.rendering.frame import Renderer
@@ -87,7 +87,7 @@ def _row(renderer: Renderer, item: ChartScene, method: Combination, setting: flo
         direction_median=errors.direction_median, direction_99=errors.direction_99, direction_worst=errors.direction_worst,
         crossing_r_99=errors.crossing_r_99, g_99=errors.g_99, wrong_fates=errors.wrong_fates, evaluations=float(np.mean(found.evaluations)),
         cost_flat_ratio=min(taken) / min(yard), step_tolerance=steps["tolerance"], refined=0, cost_unrefined=math.nan,
-        field=nearest.field_text(item.scene),
+        field=hardness.field_text(item.scene),
     )  # fmt: skip
 
 
@@ -108,8 +108,9 @@ def page(rows: Sequence[Measured], scenes: Sequence[ChartScene], where: Origin) 
         "",
         "Every field with the parameters that it comes with, seen from 25 r_s, and as the shipped scenes have it, by their cameras and without their",
         f"things; {_RAYS} rays through random pixels, in the pictures' own shader, against the field's own float64 twin.",
-        "Cost is the least processor time of a trace over that of straight rays. Where a field has parameters that are not here, the plan takes step",
-        "controls that judge their steps alone, by what was measured of the field as it comes.",
+        "Cost is the least processor time of a trace over that of straight rays. Where a field has parameters that are not here, the plan goes by those",
+        "here that are as hard to march through: what the ray model's header says is `harder_with` no smaller and of the same sign, what is `milder_with` no",
+        "larger, and all else equal. Where there is none, it takes step controls that judge their steps alone, by what was measured of the field as it comes.",
         "",
         "## The cheapest within half a pixel of a picture 1080 high, at 99 % of the rays",
         "",

@@ -157,8 +157,8 @@ def is_open(scene: Scene) -> bool:
 
 def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
-    # A stronger field asks for shorter steps; a control that judges its steps finds them.
-    any_control = not is_field(scene) or nearest.is_as_measured(scene)
+    # A harder field asks for shorter steps; a control that judges its steps finds them.
+    any_control = not is_field(scene) or nearest.bounds_steps(scene)
     yield from _marched(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), any_control, _pixels(scene))
     if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
         # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.

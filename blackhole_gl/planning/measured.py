@@ -50,7 +50,7 @@ class Measured:
         refined: 1 for a refined hit map, as it is while the camera moves: rays are the pixels of a picture of `choice.REFINED_SIZE`, traced with
             `choice.REFINED_TOLERANCE`, and that is what is timed. Its crossing_r_99 is relative to the disk's outer radius.
         cost_unrefined: of a refined row: what a ray for every pixel costs at that size.
-        field: what is not as it comes in the field measured, as `nearest.field_text` has it; empty for holes.
+        field: what is not as it comes in the field measured, as `hardness.field_text` has it; empty for holes.
     """
 
     scene: str

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
 from ..physics import projection
-from ..physics.space_time import is_field, ray_model
+from ..physics.space_time import is_field
 from ..resources import assets_dir
 from ..scene import Scene, catalogue
+from . import hardness
 from .measured import Measured, read
 
 # A measured scene this near (see `_distance`) is the scene itself; otherwise the worse of the two nearest is believed.
@@ -39,32 +40,25 @@ def nearest_scenes(scene: Scene) -> tuple[str, ...]:
 def _alike(scene: Scene) -> Iterator[tuple[str, Sequence[Measured]]]:
     """The measured scenes of the same field as `scene`, or of holes from outside where it has none: their names and rows.
 
-    A field that was not measured is like the one of its kind that is as it comes.
+    A field that was not measured is like those of its kind that are as hard to march through; where none is, like the one that is as it comes.
     """
     models = catalogue.plug_ins("ray_model")
-    field = (field_text(scene) if is_as_measured(scene) else "") if is_field(scene) else None
+    fields = (hardness.as_hard(scene, _measured_fields(scene.rays.model)) or {""}) if is_field(scene) else None
     for name, rows in measurements().items():
         row = rows[0]
         of_hole = not models[row.model].traits.field and not row.from_inside
-        if of_hole if field is None else (row.model, row.field) == (scene.rays.model, field):
+        if of_hole if fields is None else row.model == scene.rays.model and row.field in fields:
             yield name, rows
 
 
-def is_as_measured(scene: Scene) -> bool:
-    """Whether the field of `scene` was measured with the parameters that it has there."""
-    return (scene.rays.model, field_text(scene)) in _measured_fields()
+def bounds_steps(scene: Scene) -> bool:
+    """Whether steps of any length were measured in the field of `scene`, or in one that is as hard to march through."""
+    return bool(hardness.as_hard(scene, _measured_fields(scene.rays.model)))
 
 
-@lru_cache(maxsize=1)
-def _measured_fields() -> frozenset[tuple[str, str]]:
-    return frozenset((rows[0].model, rows[0].field) for rows in measurements().values())
-
-
-def field_text(scene: Scene) -> str:
-    """The parameters of the field of `scene` that are not as they come, as the table names them: ``refraction.size=5.0;…``; empty where all are."""
-    known = {**ray_model(scene).parameters, **{key: scene.field(key) for key in ("rays.field_radius", "rays.field_way")}}
-    changed = {key.removeprefix("rays."): scene.get(key) for key, item in known.items() if scene.get(key) != item.default}
-    return ";".join(f"{key}={value}" for key, value in sorted(changed.items()))
+@lru_cache(maxsize=64)
+def _measured_fields(model: str) -> frozenset[str]:
+    return frozenset(rows[0].field for rows in measurements().values() if rows[0].model == model)
 
 
 def _distance(here: tuple[float, ...], spins: bool, row: Measured) -> float:

@@ -142,6 +142,10 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         for entry in ("reach", "centre", "increasing"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), known, place)
         _refuse_disordered_defaults(traits.increasing, known, place)
+    if isinstance(traits, RayModelTraits):
+        own = {key.rpartition(".")[2]: item for key, item in known.items()}
+        for entry in ("harder_with", "milder_with"):
+            _refuse_unknown_numbers(entry, getattr(traits, entry), own, place)
     if isinstance(traits, MediumTraits):
         _refuse_unknown_numbers("parts", traits.parts, known, place)
     if isinstance(traits, MediumTraits) and traits.phenomenological:

@@ -31,6 +31,7 @@ class RayModelTraits:
         second_order: whether its forces depend on places alone.
         march_bound: r_s beyond which its outward rays may be finished in closed form; None: where the plan does for all.
         field: whether it bends rays in flat space by a field within a sphere, ``rays.field_radius``: then there is no hole.
+        harder_with, milder_with: of a field, parameters that ask for shorter steps the farther they are from 0, and the smaller they are.
         crosses_horizon: whether a camera that falls may look out from inside the horizon: with CAMERA_FALLS set its rays are regular there.
         tells_time: whether it also says how long light has been under way, for ``rays.light_travel``.
         tilted_disk: whether all the crossings that it finds are those of common/disk_plane.glsl, so that the disk may be tilted.
@@ -46,6 +47,8 @@ class RayModelTraits:
     second_order: bool = False
     march_bound: Annotated[float, Between(1.0, 1e4)] | None = None
     field: bool = False
+    harder_with: tuple[str, ...] = ()
+    milder_with: tuple[str, ...] = ()
     tilted_disk: bool = False
     tells_time: bool = False
     crosses_horizon: bool = False

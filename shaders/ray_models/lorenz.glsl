@@ -13,6 +13,7 @@ second_order = true
 exact = true
 tilted_disk = true
 field = true
+harder_with = ["strength"]
 
 [parameters]
 strength = { default = 5e-4, range = [0.0, 0.1], unit = "1/r_s", help = "What the field is multiplied by; 0 leaves rays straight." }

@@ -13,6 +13,8 @@ second_order = true
 exact = true
 tilted_disk = true
 field = true
+harder_with = ["strength"]
+milder_with = ["core"]
 
 [parameters]
 law = { default = "newton", options = ["newton", "yukawa", "compact"], help = "Pull at distance r from the centre: ζ/r², ζ(1 + μr)e^(−μr)/r², or ζ(2r³/R³ − 3r²/R² + 1) up to R and none beyond." }

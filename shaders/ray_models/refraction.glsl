@@ -13,6 +13,8 @@ second_order = true
 exact = true
 tilted_disk = true
 field = true
+harder_with = ["strength", "raggedness", "index"]
+milder_with = ["width", "grain"]
 
 [parameters]
 medium = { default = "explosion", options = ["explosion", "mirage", "luneburg", "fish_eye", "linear"], help = "How n changes: a ragged shell, a hot floor in z = 0, Luneburg's lens, Maxwell's fish-eye, n² linear in z." }

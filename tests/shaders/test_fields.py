@@ -9,9 +9,11 @@ import pytest
 
 from blackhole_gl import listed_rays
 from blackhole_gl.glsl.declared import Fate
+from blackhole_gl.measure.errors import compare
+from blackhole_gl.measure.scenes import ChartScene
 from blackhole_gl.planning import plan
 from blackhole_gl.rendering.frame import Renderer
-from blackhole_gl.scene import Scene, SceneError, catalogue, presets
+from blackhole_gl.scene import Scene, SceneError, catalogue, met, presets
 
 FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
 RADIUS = 10.0  # r_s, of the sphere
@@ -162,3 +164,29 @@ def test_a_ray_that_grazes_a_field_in_one_step_leaves_it_bent(renderer: Renderer
     assert (long.steps == 1).all() and (fine.steps > 1).all()
     off, bent = (np.linalg.norm(fine.direction - other.direction, axis=1) for other in (long, straight))
     assert np.all(off < 0.01 * bent)
+
+
+MILDER = {  # parts of what a shipped scene has, or more of it, between which fields are drawn
+    "objects_lorenz": {"lorenz.strength": (0.3, 1.0)},
+    "objects_roessler": {"roessler.strength": (0.3, 1.0)},
+    "objects_potential": {"potential.strength": (0.3, 1.0), "potential.core": (1.0, 3.0)},
+    "objects_refraction": {"refraction.strength": (0.3, 1.0), "refraction.raggedness": (0.5, 1.0), "refraction.width": (1.0, 2.0), "refraction.grain": (1.0, 2.0)},
+    "explosion": {"refraction.strength": (0.3, 1.0), "refraction.raggedness": (0.5, 1.0), "refraction.width": (1.0, 2.0), "refraction.grain": (1.0, 2.0)},
+    "mirage": {"refraction.strength": (0.3, 1.0)},
+    "fish_eye": {"refraction.index": (0.6, 1.0)},
+}
+
+
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 9))])
+@pytest.mark.parametrize("name", MILDER)
+def test_milder_fields_keep_the_tolerance_by_the_steps_of_harder_ones(renderer: Renderer, name: str, seed: int) -> None:
+    """At 99 % of the rays, as where they were measured."""
+    rng = np.random.default_rng(seed)
+    shipped = met.without_any(presets.load([name]))
+    values = {f"rays.{key}": shipped.get(f"rays.{key}") * rng.uniform(*parts) for key, parts in MILDER[name].items()}
+    item = ChartScene(name, shipped.with_values({**values, "rays.integrator": "auto", "rays.step_control": "auto", "rays.step_length": 0.0}), 200)
+    made = plan(item.scene)
+    assert made.step_control is not None and not made.step_control.traits.adapts
+    errors = compare(listed_rays.trace_by_shader(renderer, item.scene, item.rays), item.truth, np.ones(len(item.rays), bool))
+    print(f"{name}: {values}: {errors.direction_99 / item.pixel:.3f} px by {made.method}")
+    assert errors.direction_99 <= item.scene.rays.tolerance * item.pixel

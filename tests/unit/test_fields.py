@@ -9,7 +9,7 @@ from blackhole_gl import planning
 from blackhole_gl.app.panel import Panel
 from blackhole_gl.measure.methods import sensible
 from blackhole_gl.measure.scenes import ChartScene, is_physical, true_scene
-from blackhole_gl.planning import choice
+from blackhole_gl.planning import choice, hardness
 from blackhole_gl.scene import Scene, catalogue, presets
 
 FIELDS = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field]
@@ -28,10 +28,44 @@ def test_the_plan_chooses_among_what_was_measured_of_the_field(model: str) -> No
     assert finer.chosen is not None and finer.chosen.cost >= made.chosen.cost
 
 
-def test_a_field_of_other_parameters_gets_a_control_that_judges_its_steps() -> None:
-    for values in ({"rays__lorenz__strength": 2e-3}, {"rays__field_radius": 20.0}):
-        made = planning.plan(field("lorenz", **values))
-        assert made.step_control is not None and made.step_control.traits.adapts
+@pytest.mark.parametrize(
+    ("model", "values"),
+    [
+        ("lorenz", {"lorenz.strength": 2e-3}),
+        ("lorenz", {"field_radius": 20.0}),
+        ("lorenz", {"lorenz.strength": 2e-4, "lorenz.rho": 40.0}),
+        ("refraction", {"refraction.strength": -0.2}),
+        ("refraction", {"refraction.width": 0.8}),
+        ("refraction", {"refraction.grain": 3.0, "refraction.strength": 0.1}),
+        ("refraction", {"refraction.medium": "mirage", "refraction.strength": 0.01}),
+    ],
+)
+def test_a_harder_field_or_another_gets_a_control_that_judges_its_steps(model: str, values: dict) -> None:
+    made = planning.plan(field(model, **{f"rays__{key.replace('.', '__')}": value for key, value in values.items()}))
+    assert made.step_control is not None and made.step_control.traits.adapts
+
+
+@pytest.mark.parametrize(
+    ("model", "values"),
+    [
+        ("lorenz", {"lorenz.strength": 2e-4}),
+        ("roessler", {"roessler.strength": 0.001}),
+        ("potential", {"potential.strength": 0.1, "potential.core": 0.5}),
+        ("refraction", {"refraction.strength": 0.2, "refraction.width": 1.5, "refraction.grain": 5.0, "refraction.raggedness": 0.1}),
+    ],
+)
+def test_a_milder_field_takes_the_steps_of_one_that_was_measured(model: str, values: dict) -> None:
+    """So that its sliders leave the picture as quick as it is."""
+    made = planning.plan(field(model, **{f"rays__{key.replace('.', '__')}": value for key, value in values.items()}))
+    as_it_comes = planning.plan(field(model))
+    assert made.step_control is as_it_comes.step_control and made.step_length == as_it_comes.step_length
+    assert made.refine_px > 0.0
+
+
+def test_a_field_no_harder_than_that_of_a_scene_is_like_it() -> None:
+    """Milder than the shock wave and harder than the field as it comes."""
+    text = hardness.as_hard(field("refraction", rays__refraction__size=5.0, rays__refraction__strength=0.32), frozenset(["", "refraction.size=5.0;refraction.strength=0.35"]))
+    assert text == {"refraction.size=5.0;refraction.strength=0.35"}
 
 
 SHIPPED = [info.name for info in presets.available() if info.group == "scene" and presets.load([info.name]).rays.model in FIELDS]
