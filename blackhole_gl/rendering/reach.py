@@ -37,7 +37,7 @@ _INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
 # Ways in a field are held against balls in pieces as long as that, r_s, which are cubics.
-_PIECE = 1.2
+_PIECE = 1.6
 
 # What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough.
 _NOT_LINEAR, _BY_ITSELF = 0.3, 1.0
