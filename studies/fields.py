@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +34,14 @@ _SIZE = (256, 144)  # pixels of a timed frame
 _ROUNDS = 5
 _LONGEST = (2.0,)  # r_s: weak fields let steps be longer than holes do
 _OPEN = {"rays.integrator": "auto", "rays.step_control": "auto", "rays.step_length": 0.0}
+# Harder than what is shipped, so that its sliders may be moved up as well as down without a march that judges its steps.
+_HARDER: Mapping[str, tuple[str, Mapping[str, float]]] = {
+    "ragged_shock_wave": ("objects_refraction", {"rays.refraction.width": 1.0, "rays.refraction.grain": 4.0, "rays.refraction.strength": 0.35}),
+    "ragged_explosion": ("explosion", {"rays.refraction.width": 1.0, "rays.refraction.grain": 3.0}),
+    "strong_lorenz": ("objects_lorenz", {"rays.lorenz.strength": 0.002}),
+    "strong_roessler": ("objects_roessler", {"rays.roessler.strength": 0.015}),
+    "strong_potential": ("objects_potential", {"rays.potential.strength": 1.5}),
+}
 _CAMERA = {"camera.distance": 25.0, "camera.inclination_deg": 75.0, "camera.azimuth_deg": 20.0, "camera.fov_deg": 45.0}
 
 
@@ -57,10 +65,11 @@ def main() -> None:
 
 
 def _scenes() -> Iterator[ChartScene]:
-    """Every shipped field as it comes, and every shipped scene's."""
+    """Every shipped field as it comes, every shipped scene's, and those that are harder."""
     models = [key for key, model in catalogue.plug_ins("ray_model").items() if model.traits.field and model.shipped]
     found = {key: Scene().with_values({"rays.model": key, **_CAMERA}) for key in models}
     shipped = {info.name: presets.load([info.name]) for info in presets.available() if info.group == "scene"}
+    shipped |= {name: presets.load([scene], values) for name, (scene, values) in _HARDER.items()}
     found |= {name: met.without_any(scene).with_values(_OPEN) for name, scene in shipped.items() if is_field(scene) and scene.rays.lensing}
     yield from (ChartScene(name, scene, _RAYS) for name, scene in found.items())
 
@@ -106,8 +115,8 @@ def page(rows: Sequence[Measured], scenes: Sequence[ChartScene], where: Origin) 
         "",
         f"Made by `make fields`; do not edit. Measured on: {where.text}. The plan chooses by the same table, `assets/measurements_fields.csv`.",
         "",
-        "Every field with the parameters that it comes with, seen from 25 r_s, and as the shipped scenes have it, by their cameras and without their",
-        f"things; {_RAYS} rays through random pixels, in the pictures' own shader, against the field's own float64 twin.",
+        "Every field with the parameters that it comes with, seen from 25 r_s, as the shipped scenes have it, by their cameras and without their things, and",
+        f"some that are harder; {_RAYS} rays through random pixels, in the pictures' own shader, against the field's own float64 twin.",
         "Cost is the least processor time of a trace over that of straight rays. Where a field has parameters that are not here, the plan goes by those",
         "here that are as hard to march through: what the ray model's header says is `harder_with` no smaller and of the same sign, what is `milder_with` no",
         "larger, and all else equal. Where there is none, it takes step controls that judge their steps alone, by what was measured of the field as it comes.",
