@@ -79,6 +79,12 @@ class Block:
         words.view(np.int32)[of_whole] = whole
         return words.tobytes()
 
+    def changed(self, packed: bytes, name: str, value: Any) -> bytes:
+        """The block's bytes `packed` with another number, or vector, for the member of that name."""
+        made = np.frombuffer(packed, self.dtype).copy()
+        made[name] = value
+        return made.tobytes()
+
     @cached_property
     def _words(self) -> tuple[np.ndarray, np.ndarray]:
         """Which of the block's words hold floats, and which whole numbers, in the order of `members`: a frame packs hundreds of them at once."""

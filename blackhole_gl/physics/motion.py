@@ -62,7 +62,7 @@ class Mover:
 def rows(scene: Scene, slot: str, where: SpaceTime, time: float) -> Float[np.ndarray, "instances 4 4"]:
     """The motion at `time` (r_s/c) of the instances of `slot`, ``thing`` or ``medium``, in the scene's order: centre and reach, velocity and
     the circle's rate, spin, attitude."""
-    standing, moving = _parted(met.named(scene, slot), tuple(met.kinds(scene, slot)))
+    standing, moving = _parted(met.named(scene, slot), met.kinds(scene, slot))
     found = standing.copy()
     for mover in moving:
         found[mover.place] = _row(of(mover.instance, mover.traits, where, time))
@@ -71,7 +71,7 @@ def rows(scene: Scene, slot: str, where: SpaceTime, time: float) -> Float[np.nda
 
 def movers(scene: Scene, slot: str) -> tuple[Mover, ...]:
     """Those instances of `slot` that move or turn, in the scene's order."""
-    return _parted(met.named(scene, slot), tuple(met.kinds(scene, slot)))[1]
+    return _parted(met.named(scene, slot), met.kinds(scene, slot))[1]
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)

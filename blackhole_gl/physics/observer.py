@@ -126,10 +126,9 @@ def observe(scene: Scene) -> Observer:
         ValueError: the camera is not outside the horizon, or there is no such observer in its place; the text says why.
     """
     where, camera = space_time(scene), scene.camera
-    look = look_rotation(camera)
+    look, n = look_rotation(camera), outwards(camera)
     cos_theta, sin_theta = cos_sin_deg(camera.inclination_deg)
     cos_phi, sin_phi = cos_sin_deg(camera.azimuth_deg)
-    n = np.array([sin_theta * cos_phi, sin_theta * sin_phi, cos_theta])
     e_theta = np.array([cos_theta * cos_phi, cos_theta * sin_phi, -sin_theta])
     e_phi = np.array([-sin_phi, cos_phi, 0.0])
     if math.isinf(camera.distance):
@@ -141,6 +140,13 @@ def observe(scene: Scene) -> Observer:
     frame = observer_frames.flat_frame(r, camera) if flat else observer_frames.hole_frame(r, cos_theta, sin_theta, where, camera)
     seen = Observer(frame.kind, 0.0 if flat else where.observer_spin, 1.0 / r, n, e_theta, e_phi, frame.tetrad, look, frame)
     return _moving(seen, frame, camera)
+
+
+def outwards(camera: Camera) -> Float[np.ndarray, " 3"]:
+    """Unit vector (3,) in the world from the hole to `camera`."""
+    cos_theta, sin_theta = cos_sin_deg(camera.inclination_deg)
+    cos_phi, sin_phi = cos_sin_deg(camera.azimuth_deg)
+    return np.array([sin_theta * cos_phi, sin_theta * sin_phi, cos_theta])
 
 
 def is_possible(scene: Scene) -> bool:

@@ -6,9 +6,11 @@ What a scene leaves open (a model, integrator or step control named ``auto``, a 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import attrgetter
+from types import MappingProxyType
 
 from ..physics import projection
 from ..physics.space_time import is_field, is_inside, ray_model
@@ -108,7 +110,7 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     why_not = _not_measured(scene)
     if why_not:
         return Choice(_plainly(scene), None, None, math.nan, True, (why_not,))
-    found = sorted(predictions(scene, sky_alone), key=lambda p: p.cost)
+    found = sorted(predictions(scene, sky_alone), key=attrgetter("cost"))
     if not found:
         return Choice(_plainly(scene), None, None, math.nan, True, ("nothing was measured that fits: plain steps",))
     floor = min(p.error_px for p in found)
@@ -116,7 +118,7 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     by_things = is_field(scene) and not met.is_empty(scene) and any(map(_adapts, good)) and not all(map(_adapts, good))
     if by_things:
         good.sort(key=_adapts)
-    ranked = good or sorted(found, key=lambda p: p.error_px)
+    ranked = good or sorted(found, key=attrgetter("error_px"))
     best = _of_those_as_cheap(ranked) if good else ranked[0]
     rival = next((p for p in ranked if p.method.kind != best.method.kind), None)
     reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
@@ -134,7 +136,7 @@ def _of_those_as_cheap(ranked: Sequence[Prediction]) -> Prediction:
     alike = [p for p in ranked if p.cost <= _AS_CHEAP * first.cost]
     if not first.method.integrator:
         return next((p for p in alike if p.method.model == thin_lens.MODEL), first)
-    return min((p for p in alike if p.method.integrator and _adapts(p) == _adapts(first)), key=lambda p: p.error_px)
+    return min((p for p in alike if p.method.integrator and _adapts(p) == _adapts(first)), key=attrgetter("error_px"))
 
 
 def _adapts(found: Prediction) -> bool:
@@ -155,15 +157,17 @@ def is_open(scene: Scene) -> bool:
     return AUTO in (scene.rays.integrator, scene.rays.step_control) or step == 0.0
 
 
-def predictions(scene: Scene, sky_alone: bool = True) -> Iterator[Prediction]:
+def predictions(scene: Scene, sky_alone: bool = True) -> tuple[Prediction, ...]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
     # A harder field asks for shorter steps; a control that judges its steps finds them.
     any_control = not is_field(scene) or nearest.bounds_steps(scene)
-    yield from _marched(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), any_control, _pixels(scene))
+    near = nearest.nearest_scenes(scene)
+    found = _marched(near, scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), any_control, _pixels(scene))
     if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
         # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
-        rows = tuple(row for row in _measured_in(nearest.nearest_scenes(scene)) if row.model == thin_lens.MODEL)
-        yield from (Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
+        rows = tuple(row for row in _measured_in(near) if row.model == thin_lens.MODEL)
+        found += tuple(Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
+    return found
 
 
 @lru_cache(maxsize=64)
@@ -308,9 +312,9 @@ def _not_measured(scene: Scene) -> str:
     return "" if nearest.nearest_scenes(scene) else "no measurements are stored: plain steps"
 
 
-def _plainly(scene: Scene) -> Scene:
-    """`scene` with the exact general model for its hole and plain steps where it leaves them open."""
-    model = ray_model(scene)
+def _plainly(scene: Scene, stated: Mapping[str, object] = MappingProxyType({})) -> Scene:
+    """`scene` with what is `stated`, by key: else with the exact general model for its hole, and plain steps where it leaves them open."""
+    model = catalogue.plug_ins("ray_model")[str(stated["rays.model"])] if stated else ray_model(scene)
     integrator, angle = (_INSIDE_INTEGRATOR, _INSIDE_ANGLE) if is_inside(scene) else ("rk4", _PLAIN_ANGLE)
     values = {
         "rays.model": model.key,
@@ -319,7 +323,7 @@ def _plainly(scene: Scene) -> Scene:
         "rays.step_length": scene.rays.step_length or _PLAIN_LENGTH,
         "rays.step_angle": scene.rays.step_angle or angle,
     }
-    return scene.with_values(values)
+    return scene.with_values({**values, **stated})
 
 
 def _stated(scene: Scene, best: Prediction) -> Scene:
@@ -332,7 +336,7 @@ def _stated(scene: Scene, best: Prediction) -> Scene:
     if method.step_tolerance:
         # an adaptive control starts from a long trial, as when it was measured, and shortens it where it must
         values |= {f"rays.{method.step_control}.tolerance": method.step_tolerance, "rays.step_length": _TRIAL_LENGTH, "rays.step_angle": _TRIAL_ANGLE}
-    return _plainly(scene.with_values(values))
+    return _plainly(scene, values)
 
 
 def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
 
 from ..physics.space_time import ray_model
-from ..scene import Scene, catalogue
+from ..scene import Scene, catalogue, fields
+from ..scene.catalogue import PlugIn
 from ..scene.schema import Value, number_of
 
 _OF_ALL = ("rays.field_radius", "rays.field_way")  # what every field has
@@ -14,13 +14,18 @@ _OF_ALL = ("rays.field_radius", "rays.field_way")  # what every field has
 
 def field_text(scene: Scene) -> str:
     """The parameters of the field of `scene` that are not as they come, as the table names them: ``refraction.size=5.0;…``; empty where all are."""
-    return ";".join(f"{key.removeprefix('rays.')}={value}" for key, value in sorted(_values(scene).items()) if value != scene.field(key).default)
+    keys, plain = _parameters(ray_model(scene))
+    values = scene.several(keys)
+    if values == plain:
+        return ""
+    return ";".join(f"{key.removeprefix('rays.')}={value}" for key, value, default in sorted(zip(keys, values, plain)) if value != default)
 
 
 def as_hard(scene: Scene, measured: frozenset[str]) -> frozenset[str]:
     """Those of the fields `measured`, each as `field_text` has it, that are as hard as that of `scene`, of the same ray model: the same alone where that is
     among them. What the model says of no parameter has to be the same."""
-    return _as_hard(scene.rays.model, field_text(scene), tuple(_values(scene).items()), measured)
+    keys, _ = _parameters(ray_model(scene))
+    return _as_hard(scene.rays.model, field_text(scene), tuple(zip(keys, scene.several(keys))), measured)
 
 
 @lru_cache(maxsize=64)
@@ -43,5 +48,8 @@ def _is_as_hard(text: str, model: str, own: tuple[tuple[str, Value], ...]) -> bo
     return True
 
 
-def _values(scene: Scene) -> Mapping[str, Value]:
-    return {key: scene.get(key) for key in (*ray_model(scene).parameters, *_OF_ALL)}
+@lru_cache(maxsize=16)
+def _parameters(model: PlugIn) -> tuple[tuple[str, ...], tuple[Value, ...]]:
+    """The keys that tell a field of `model` from others, and their values as they come."""
+    keys = *model.parameters, *_OF_ALL
+    return keys, tuple(fields()[key].default for key in keys)

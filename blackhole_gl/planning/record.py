@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
 
 from ..physics import disk_profile
 from ..physics.space_time import SpaceTime
-from ..scene import Scene
+from ..scene import Scene, catalogue, met
 from ..scene.catalogue import PlugIn
 from ..scene.traits import IntegratorTraits, RayModelTraits, StepControlTraits
 from ..shapes import Float
@@ -89,6 +91,19 @@ class Plan:
     frame: Frame
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
+
+    @cached_property
+    def plug_ins(self) -> Mapping[str, tuple[PlugIn[Any], ...]]:
+        """By slot those that it and its scene use."""
+        scene, layers = self.scene, catalogue.plug_ins("disk_layer")
+        return {
+            "ray_model": (self.model,),
+            "integrator": (self.integrator,) if self.integrator else (),
+            "step_control": (self.step_control,) if self.step_control else (),
+            "disk_layer": tuple(layers[key] for key in scene.disk_layers()) if self.shows_disk else (),
+            "sky": (catalogue.plug_ins("sky")[scene.sky.model],) if scene.sky.enabled else (),
+            **{slot: met.kinds(scene, slot) for slot in met.SLOTS},
+        }
 
     @property
     def azimuth_deg(self) -> float:

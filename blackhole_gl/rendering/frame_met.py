@@ -49,7 +49,7 @@ NOTHING_MET = FrameMet((), (), np.empty((0, 4)), np.empty(0, int), np.empty(0, b
 
 
 def _numbers(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    return _numbers_of(scene.things, tuple(met.kinds(scene, "thing")), len(scene.media))
+    return _numbers_of(scene.things, met.kinds(scene, "thing"), len(scene.media))
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import moderngl
 
 from ..planning import Plan, steps_in_motion
+from ..scene.frozen import changed
 from . import uniforms
 
 
@@ -49,26 +50,26 @@ class FrameInputs:
 
     def with_plan(self, plan: Plan) -> FrameInputs:
         """The same frame by another plan."""
-        return replace(self, plan=plan)
+        return changed(self, plan=plan)
 
     def in_motion(self) -> FrameInputs:
         """The same frame by steps as long as they may be under a moving camera."""
         times = steps_in_motion(self.plan, self.picture[1])
         if times == 1.0:
             return self
-        made = replace(self)
-        made.__dict__["blocks"] = {**self.blocks, **uniforms.in_longer_steps(self.plan, self.picture, self.offset, times)}
+        made = changed(self)
+        made.__dict__["blocks"] = uniforms.in_longer_steps(self.blocks, self.plan, times)
         return made
 
     def drawn_as(self, size: tuple[int, int]) -> FrameInputs:
         """The same picture's rays, drawn into `size` pixels: the uniform blocks are the same ones."""
-        made = replace(self, size=size)
+        made = changed(self, size=size)
         made.__dict__["blocks"] = self.blocks
         return made
 
     def in_picture(self, plan: Plan, size: tuple[int, int]) -> FrameInputs:
         """The same blocks for what is drawn as if it were a picture of `size` by `plan`: for what asks no rays."""
-        made = replace(self, plan=plan, size=size, picture=size, offset=(0.0, 0.0))
+        made = changed(self, plan=plan, size=size, picture=size, offset=(0.0, 0.0))
         made.__dict__["blocks"] = self.blocks
         return made
 

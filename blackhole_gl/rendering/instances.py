@@ -137,7 +137,7 @@ def key(plan: Plan, time: float) -> tuple:
     """What hits depend on here, an entry for each instance: its slot, kind and values but for its surface, and the places of those that move."""
     found: list[tuple] = []
     for slot in met.SLOTS:
-        shapes = list(_shapes(met.named(plan.scene, slot), tuple(met.kinds(plan.scene, slot))))
+        shapes = list(_shapes(met.named(plan.scene, slot), met.kinds(plan.scene, slot)))
         for mover in motion.movers(plan.scene, slot):
             if motion.moves(mover.instance, mover.traits):
                 here = motion.of(mover.instance, mover.traits, plan.space_time, time)
@@ -161,18 +161,14 @@ class InstanceTables:
         self._ctx = ctx
         self._kept: dict[str, tuple[np.ndarray, moderngl.Texture]] = {}
         self._made: tuple[Plan, float, dict[str, moderngl.Texture]] | None = None
+        self._of_places: tuple[tuple, dict[str, np.ndarray]] | None = None  # what no camera changes, and what it depends on
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
         if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan):
             found = meshes.of(plan.scene)
             files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
-            kinds = used(plan.scene)
-            rows = [_rows(kind, plan, time, files) for kind in kinds]
-            bounds = [_bounds(table, plan.times and kind.traits.moves) for kind, table in zip(kinds, rows)]
-            nodes = _nodes(bounds, [_moving(kind, plan, files) for kind in kinds])
-            tables = {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)}
-            tables |= {"lamps_table": lamps.rows(plan, time), "meeting_nodes": nodes}
+            tables = {**self._tables(plan, time, files), "lamps_table": lamps.rows(plan, time)}
             if found:
                 tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
             self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
@@ -183,6 +179,18 @@ class InstanceTables:
         for _, texture in self._kept.values():
             texture.release()
         self._kept, self._made = {}, None
+
+    def _tables(self, plan: Plan, time: float, files: FrozenMap[str, int]) -> dict[str, np.ndarray]:
+        """Sampler's name → values of the kinds' tables, and of the hierarchy: the same objects until anything of them is another."""
+        scene = plan.scene
+        depends_on = scene.things, scene.media, plan.space_time, plan.times, files, time if anything_moves(plan) else None
+        if self._of_places is None or self._of_places[0] != depends_on:
+            kinds = used(scene)
+            rows = [_rows(kind, plan, time, files) for kind in kinds]
+            bounds = [_bounds(table, plan.times and kind.traits.moves) for kind, table in zip(kinds, rows)]
+            nodes = _nodes(bounds, [_moving(kind, plan, files) for kind in kinds])
+            self._of_places = depends_on, {f"{kind.slot}_{kind.key}_table": table for kind, table in zip(kinds, rows)} | {"meeting_nodes": nodes}
+        return self._of_places[1]
 
     def _texture(self, name: str, values: np.ndarray) -> moderngl.Texture:
         size = values.shape[1], values.shape[0]

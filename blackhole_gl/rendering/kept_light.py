@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ..planning import Plan
+from ..scene.frozen import changed
 from . import instances, transfer
 from .inputs import FrameInputs
 from .structure import chosen
@@ -18,4 +17,4 @@ def stands(plan: Plan) -> bool:
 
 def key(inputs: FrameInputs, *rest: object) -> tuple | None:
     """Of all that a picture's light depends on, with the `rest` that is not in its `inputs`; None where it has to be shaded anew at another time."""
-    return (replace(inputs, time=0.0), *rest) if stands(inputs.plan) else None
+    return (changed(inputs, time=0.0), *rest) if stands(inputs.plan) else None

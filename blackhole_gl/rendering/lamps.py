@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..physics import motion
-from ..physics.observer import observe
+from ..physics.observer import outwards
 from ..planning import Plan
 from ..scene import Instance, met
 from ..scene.schema import number_of
@@ -39,6 +39,6 @@ def _row(instance: Instance, bound: Float[np.ndarray, " 4"]) -> tuple[tuple[floa
 
 
 def _at_camera(plan: Plan) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    distance = plan.scene.camera.distance
-    place = observe(plan.scene).n * (distance if math.isfinite(distance) else _FAR)
+    camera = plan.scene.camera
+    place = outwards(camera) * (camera.distance if math.isfinite(camera.distance) else _FAR)
     return (*place, 0.0), (1.0, 1.0, 1.0, 0.0)

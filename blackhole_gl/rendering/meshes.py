@@ -122,7 +122,7 @@ def _towards_camera(plan: Plan, time: float, value: str) -> tuple[int, int, int]
 
 def _named(scene: Scene) -> FrozenMap[str, str] | None:
     """Value → key of each mesh that things name."""
-    return _named_in(scene.things, tuple(met.kinds(scene, "thing")))
+    return _named_in(scene.things, met.kinds(scene, "thing"))
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)

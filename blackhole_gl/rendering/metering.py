@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import moderngl
 import numpy as np
 
 from ..planning import Plan
 from ..scene import Playback, Post, Scene, Sky
+from ..scene.frozen import changed
 from . import coarse_transfer
 from .hit_map import HitMap
 from .inputs import FrameInputs
@@ -165,23 +165,23 @@ class Meter:
 def _exposed(plan: Plan, stops: float) -> Plan:
     """`plan` with `stops` more of exposure, and the glow's threshold moved with it, so that what glows is what looks bright."""
     post = plan.scene.post
-    changed = replace(post, exposure=post.exposure + stops, bloom_threshold=post.bloom_threshold * 2.0**-stops)
-    return replace(plan, scene=replace(plan.scene, post=changed))
+    exposed = changed(post, exposure=post.exposure + stops, bloom_threshold=post.bloom_threshold * 2.0**-stops)
+    return changed(plan, scene=changed(plan.scene, post=exposed))
 
 
 def _view(plan: Plan) -> Plan:
     """`plan` for what is metered: the hole in the middle, all that shines in the picture or as much as the camera's angle takes in, and nothing else."""
     scene = plan.scene
-    camera = replace(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, projection="perspective", azimuth_deg=plan.azimuth_deg)
+    camera = changed(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, projection="perspective", azimuth_deg=plan.azimuth_deg)
     radius = _MARGIN * max(plan.disk_outer if plan.shows_disk else 0.0, plan.reach)
     if math.isinf(camera.distance):
-        camera = replace(camera, field_m=min(camera.field_m, 4.0 * radius))
+        camera = changed(camera, field_m=min(camera.field_m, 4.0 * radius))
     else:
         taken_in = min(camera.fov_deg, _angle_deg(radius, camera.distance))
-        camera = replace(camera, fov_deg=max(taken_in, _shadow_deg(camera.distance)))
-    disk = replace(scene.disk, orders_shown="all")
+        camera = changed(camera, fov_deg=max(taken_in, _shadow_deg(camera.distance)))
+    disk = changed(scene.disk, orders_shown="all")
     shown = Scene(scene.hole, camera, scene.rays, disk, Sky(enabled=False), Post(), Playback(), scene.parameters, scene.things, scene.media)
-    return replace(plan, scene=shown, refine_px=0.0)
+    return changed(plan, scene=shown, refine_px=0.0)
 
 
 def _size(view: Plan) -> tuple[int, int]:

@@ -49,7 +49,7 @@ def _named(scene: Scene) -> tuple[tuple[str, str], ...]:
     """(key, value) of each picture that things and media name, each picture once, in their order."""
     found: dict[str, str] = {}
     for slot, section in (("thing", "things"), ("medium", "media")):
-        for key, value in _named_in(section, met.named(scene, slot), tuple(met.kinds(scene, slot))):
+        for key, value in _named_in(section, met.named(scene, slot), met.kinds(scene, slot)):
             found.setdefault(value, key)
     return tuple((key, value) for value, key in found.items())
 

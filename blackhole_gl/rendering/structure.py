@@ -63,20 +63,6 @@ def _camera_words() -> tuple[str, ...]:
     return tuple(key for key, item in scene_fields().items() if key.startswith("camera.") and item.kind in ("choice", "switch"))
 
 
-def chosen(plan: Plan, *slots: str) -> list[catalogue.PlugIn]:
+def chosen(plan: Plan, *slots: str) -> tuple[catalogue.PlugIn, ...]:
     """The plug-ins of `slots` that the plan and its scene use, in the order of `slots`."""
-    scene = plan.scene
-    rays: dict[str, catalogue.PlugIn | None] = {"ray_model": plan.model, "integrator": plan.integrator, "step_control": plan.step_control}
-    found: list[catalogue.PlugIn] = []
-    for slot in slots:
-        if slot in rays:
-            plug_in = rays[slot]
-            found += [plug_in] if plug_in else []
-        elif slot in MET_SLOTS:
-            found += met.kinds(scene, slot)
-        elif slot == "disk_layer":
-            layers = catalogue.plug_ins(slot)
-            found += [layers[key] for key in scene.disk_layers()] if plan.shows_disk else []
-        else:
-            found += [catalogue.plug_ins("sky")[scene.sky.model]] if scene.sky.enabled else []
-    return found
+    return tuple(plug_in for slot in slots for plug_in in plan.plug_ins[slot])

@@ -12,7 +12,7 @@ seen, with some of its rays in each frame; as does another where the view zooms,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import moderngl
@@ -20,6 +20,7 @@ import numpy as np
 
 from ..planning import Plan
 from ..scene import Camera, Scene
+from ..scene.frozen import changed
 from ..shapes import Bool, Int
 from . import kept_light
 from .boxes import Box, joined
@@ -55,7 +56,7 @@ _SINGLE = 0.95  # as for pictures that are shown a little larger: stars that can
 
 def place_of(scene: Scene) -> Scene:
     """All of `scene` but where its camera looks and how much it shows: frames that have the same only turn and zoom."""
-    return replace(scene, camera=replace(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, fov_deg=45.0))
+    return changed(scene, camera=changed(scene.camera, yaw_deg=0.0, pitch_deg=0.0, roll_deg=0.0, fov_deg=45.0))
 
 
 def can_turn(plan: Plan) -> bool:
@@ -79,21 +80,23 @@ class Turns:
     def __init__(self) -> None:
         self.stays = False
         self.last: Scene | None = None
+        self._place: Scene | None = None  # of that
         self._since: int | None = None  # pictures since the last that did; None where none has in this place
 
     def turned(self, scene: Scene) -> bool:
         """Whether `scene` does: or one of the last few did."""
-        self.stays, last, self.last = self._in_place(scene), self.last, scene
+        last, place = self.last, self._place_of(scene)
+        self.stays, self.last, self._place = place == self._place, scene, place
         since = self._since if self.stays else None
         self._since = 0 if self.stays and last != scene else None if since is None else since + 1
         return self._since is not None and self._since < _STAYS
 
     def would_turn(self, scene: Scene) -> bool:
         """Whether `scene` is of a place in which the camera turns, or has turned."""
-        return self._in_place(scene) and (self._since is not None or self.last != scene)
+        return self._place_of(scene) == self._place and (self._since is not None or self.last != scene)
 
-    def _in_place(self, scene: Scene) -> bool:
-        return self.last is not None and (self.last is scene or place_of(self.last) == place_of(scene))
+    def _place_of(self, scene: Scene) -> Scene:
+        return self._place if scene is self.last and self._place is not None else place_of(scene)
 
 
 class TurningPass:

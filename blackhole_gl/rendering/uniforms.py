@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 
 from ..glsl.blocks import Block
@@ -60,6 +60,8 @@ _SHADE_MEMBERS = (
     ("plan_medium_step", "float"),  # share of a medium's scale
 )
 
+
+_NOTHING: Mapping[str, object] = {"float": 0.0, "int": 0, "vec2": (0.0,) * 2, "vec4": (0.0,) * 4, "mat4": ((0.0,) * 4,) * 4}
 
 NO_RING = 0, 0, 0, 0
 """Of what is drawn as it lies in its picture."""
@@ -151,7 +153,7 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         plan_step_length=plan.step_length,
         plan_step_angle=plan.step_angle,
         plan_max_steps=plan.max_steps,
-        **{number.name: number.made(number.arguments(scene)) for number in _numbers(True)},
+        **_made(plan, of_rays=True, make=lambda number: number.made(number.arguments(scene))),
     )
 
 
@@ -172,8 +174,14 @@ def shade_values(plan: Plan, time: float) -> Mapping[str, object]:
         disk_spin_sign=plan.space_time.orbit_sense(scene.disk.orbit),
         hole_spin_complement=1.0 - abs(plan.space_time.spin),
         plan_medium_step=plan.scene.rays.medium_step,
-        **{number.name: number.at(scene, time) for number in _numbers(False)},
+        **_made(plan, of_rays=False, make=lambda number: number.at(scene, time)),
     )
+
+
+def _made(plan: Plan, *, of_rays: bool, make: Callable[[Number], object]) -> dict[str, object]:
+    """What plug-ins declare, by name: of those that `plan` does not use no shader reads it, and nothing is made."""
+    used = {number.name for found in plan.plug_ins.values() for plug_in in found for number in plug_in.numbers}
+    return {number.name: make(number) if number.name in used else _NOTHING[number.type] for number in _numbers(of_rays)}
 
 
 def scene_values(plan: Plan) -> dict[str, object]:
@@ -262,9 +270,10 @@ def _without_time(plan: Plan, picture: tuple[int, int], offset: tuple[float, flo
     return made
 
 
-def in_longer_steps(plan: Plan, picture: tuple[int, int], offset: tuple[float, float], times: float) -> dict[str, bytes]:
-    """The packed block of rays by its name, for steps so many times as long as the plan's."""
-    return {ray_block().name: ray_block().pack({**ray_values(plan, picture, offset), "plan_step_length": times * plan.step_length})}
+def in_longer_steps(blocks: Mapping[str, bytes], plan: Plan, times: float) -> dict[str, bytes]:
+    """The packed `blocks` of `plan`, for steps so many times as long as it has."""
+    of_rays = ray_block()
+    return {**blocks, of_rays.name: of_rays.changed(blocks[of_rays.name], "plan_step_length", times * plan.step_length)}
 
 
 _last_without_time: tuple[tuple[bytes, bytes], tuple[Plan, tuple[int, int], tuple[float, float], tuple[int, int, int, int]]] | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from ..resources import assets_dir
@@ -32,8 +33,12 @@ def located(key: str, value: str) -> Path:
     Raises:
         SceneError: it names an asset that there is not.
     """
-    if not is_asset(value):
-        return Path(value)
+    return _asset(key, value) if is_asset(value) else Path(value)
+
+
+@lru_cache(maxsize=64)
+def _asset(key: str, value: str) -> Path:
+    """Kept where it is found, as each frame asks: what comes with the program stays where it is."""
     folder = assets_dir()
     path = folder / value.removeprefix(ASSET)
     if not is_within(path, folder) or not path.is_file():

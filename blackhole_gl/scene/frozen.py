@@ -1,12 +1,28 @@
-"""A mapping that does not change: what a scene can hold, hash, compare and send to another process."""
+"""What does not change: a mapping that a scene can hold, hash, compare and send to another process, and records with other values."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TypeVar
+from dataclasses import fields
+from functools import cache
+from typing import Any, TypeVar
 
 K = TypeVar("K")
 V = TypeVar("V")
+R = TypeVar("R")
+
+
+def changed(record: R, **values: Any) -> R:
+    """``dataclasses.replace`` for frozen records that check nothing when they are made, in a fifth of its time: a frame makes twenty."""
+    made = object.__new__(type(record))
+    own = vars(record)
+    vars(made).update({name: own[name] for name in _names(type(record))}, **values)
+    return made
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:
+    return tuple(item.name for item in fields(kind))
 
 
 class FrozenMap(Mapping[K, V]):

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import lru_cache
 
 from . import catalogue
-from .frozen import FrozenMap
+from .frozen import FrozenMap, changed
 from .instances import Instance, Instances
 from .plug_in import PlugIn
 from .records import Scene
@@ -31,21 +30,21 @@ def instances(scene: Scene, slot: str) -> Iterator[Instance]:
     yield from named(scene, slot).values()
 
 
-def kinds(scene: Scene, slot: str) -> list[PlugIn]:
+def kinds(scene: Scene, slot: str) -> tuple[PlugIn, ...]:
     """The kinds of `slot` that the scene has instances of, in the catalogue's order."""
-    used = _used(named(scene, slot))
-    return [plug_in for key, plug_in in catalogue.plug_ins(slot).items() if key in used]
+    return _kinds(named(scene, slot), slot)
 
 
-@lru_cache(maxsize=SCENES_KEPT)
-def _used(lot: Instances) -> frozenset[str]:
-    return frozenset(instance.kind for instance in lot.values())
+@lru_cache(maxsize=2 * SCENES_KEPT)
+def _kinds(lot: Instances, slot: str) -> tuple[PlugIn, ...]:
+    used = {instance.kind for instance in lot.values()}
+    return tuple(plug_in for key, plug_in in catalogue.plug_ins(slot).items() if key in used)
 
 
-def seen_kinds(scene: Scene, slot: str) -> list[PlugIn]:
+def seen_kinds(scene: Scene, slot: str) -> tuple[PlugIn, ...]:
     """Those of `kinds` of which any instance may be met: of a lamp that has no size nothing is. All of them, where that would be none."""
     all_kinds = kinds(scene, slot)
-    return [kind for kind in all_kinds if kind.key in _with_size(named(scene, slot), tuple(all_kinds))] or all_kinds
+    return tuple(kind for kind in all_kinds if kind.key in _with_size(named(scene, slot), all_kinds)) or all_kinds
 
 
 @lru_cache(maxsize=SCENES_KEPT)
@@ -61,7 +60,7 @@ def is_empty(scene: Scene) -> bool:
 
 def without_any(scene: Scene) -> Scene:
     """`scene` without its things and media: the ways of its light are the same."""
-    return scene if is_empty(scene) else replace(scene, things=FrozenMap(), media=FrozenMap())
+    return scene if is_empty(scene) else changed(scene, things=FrozenMap(), media=FrozenMap())
 
 
 def with_thickness(scene: Scene) -> Scene:
@@ -83,7 +82,7 @@ def reach(scene: Scene) -> float:
 
 def reach_of(scene: Scene, slot: str) -> float:
     """The same of the instances of one `slot`."""
-    return _reach(named(scene, slot), tuple(kinds(scene, slot)))
+    return _reach(named(scene, slot), kinds(scene, slot))
 
 
 @lru_cache(maxsize=SCENES_KEPT)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -100,9 +100,12 @@ class PlugIn(Generic[T]):
     source: str
     rank: float
     traits: T
-    parameters: Mapping[str, Field] = field(hash=False)  # no mapping has one; a kind is a key of what is kept of a scene
+    parameters: Mapping[str, Field]
     tables: tuple[Table, ...]
     numbers: tuple[Number, ...]
+
+    def __hash__(self) -> int:
+        return hash(self.path)  # a kind is a key of what is kept of a scene, in every frame
 
     @cached_property
     def shipped(self) -> bool:

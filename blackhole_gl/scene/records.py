@@ -7,7 +7,7 @@ Every value has a dotted key: ``<section>.<name>``, for a plug-in's parameter ``
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, lru_cache, partial
 from itertools import compress
 from operator import attrgetter
@@ -15,7 +15,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from . import catalogue, instances, sections
-from .frozen import FrozenMap
+from .frozen import FrozenMap, changed
 from .instances import Instances, Place
 from .order import refuse_disorder
 from .schema import Field, SceneError, Value, describe, nearest_key
@@ -110,7 +110,7 @@ class Scene:
         """
         records: dict[str, dict[str, Value]] = {}
         placed: dict[str, list[tuple[Place, Any]]] = {}
-        parameters = dict(self.parameters)
+        parameters: dict[str, Value] = {}
         for key, given in values.items():
             place = instances.place_of(key)
             if place is not None:
@@ -120,15 +120,17 @@ class Scene:
             if key in _getters():
                 section, name = key.split(".")
                 records.setdefault(section, {})[name] = value
-            elif value == _field(key).default:
-                parameters.pop(key, None)
             else:
                 parameters[key] = value
-        changed = {section: replace(getattr(self, section), **entries) for section, entries in records.items()}
-        for section, record in changed.items():
+        made: dict[str, Any] = {section: changed(getattr(self, section), **entries) for section, entries in records.items()}
+        for section, record in made.items():
             refuse_disorder(section, sections.INCREASING.get(section, ()), partial(getattr, record), records[section])
-        made = {section: instances.changed(section, getattr(self, section), entries) for section, entries in placed.items()}
-        return self._with_sections({"parameters": MappingProxyType(parameters), **changed, **made})
+        made |= {section: instances.changed(section, getattr(self, section), entries) for section, entries in placed.items()}
+        if parameters:
+            plain = {key for key, value in parameters.items() if value == _field(key).default}
+            stated = {key: value for key, value in {**self.parameters, **parameters}.items() if key not in plain}
+            made["parameters"] = MappingProxyType(stated)
+        return changed(self, **made)
 
     def without(self, path: str) -> Scene:
         """This scene less the instance ``things.moon``.
@@ -137,7 +139,7 @@ class Scene:
             SceneError: there is no such instance.
         """
         place = _instance(path)
-        return self._with_sections({place.section: instances.without(place, getattr(self, place.section))})
+        return changed(self, **{place.section: instances.without(place, getattr(self, place.section))})
 
     def renamed(self, path: str, name: str) -> Scene:
         """This scene with the instance ``things.moon`` called `name`.
@@ -146,11 +148,7 @@ class Scene:
             SceneError: there is no such instance, or the name is taken or no name.
         """
         place = _instance(path)
-        return self._with_sections({place.section: instances.renamed(place, getattr(self, place.section), name)})
-
-    def _with_sections(self, changed: Mapping[str, Any]) -> Scene:
-        """This scene with other sections, by name."""
-        return replace(self, **changed)
+        return changed(self, **{place.section: instances.renamed(place, getattr(self, place.section), name)})
 
     def disk_layers(self) -> tuple[str, ...]:
         """The keys of the disk's layers that are switched on."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from blackhole_gl.resources import shaders_dir
-from blackhole_gl.scene import catalogue, instances
+from blackhole_gl.scene import catalogue, instances, met
 
 GLOBE = '''/*---
 label = "Globe"
@@ -122,6 +122,12 @@ def known_kinds(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
     own = {slot: {key: kind for key, kind in found.plug_ins[slot].items() if kind.file.is_relative_to(folder)} for slot in ("thing", "medium")}
     known = catalogue.Catalogue({**found.plug_ins, **own}, ())
     monkeypatch.setattr(catalogue, "_catalogue", lambda: known)
-    instances._fields_of.cache_clear()
+    _forget()
     yield folder
+    _forget()
+
+
+def _forget() -> None:
+    """What is kept of kinds by their names must not outlive them."""
     instances._fields_of.cache_clear()
+    met._kinds.cache_clear()
