@@ -62,6 +62,5 @@ def drawn(ctx: moderngl.Context, draw: Draw, where: Where) -> Generator[None]:
     ctx.enable(moderngl.DEPTH_TEST)
     ctx.depth_func = where.comparison
     yield
-    draw.set(triangle_depth=0.0)
     ctx.disable(moderngl.DEPTH_TEST)
     ctx.depth_func = "<"

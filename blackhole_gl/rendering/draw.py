@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
+from typing import Any
 
 import moderngl
 
@@ -30,9 +32,9 @@ class Compiled:
     squares: moderngl.VertexArray
 
     @cached_property
-    def names(self) -> frozenset[str]:
-        """Its samplers, loose uniforms and blocks: looking a name up in the program walks through all of them."""
-        return frozenset(self.program)
+    def members(self) -> dict[str, Any]:
+        """Its samplers, loose uniforms and blocks by name: looking a name up in the program walks through all of them."""
+        return {name: self.program[name] for name in self.program}
 
     @cached_property
     def values(self) -> dict[str, object]:
@@ -78,50 +80,54 @@ class Draw:
 
     def takes(self, name: str) -> bool:
         """Whether the program has a sampler or a loose uniform of that name."""
-        return name in self.compiled.names
+        return name in self.compiled.members
 
     def sample(self, samplers: Samplers, first: int = 0) -> None:
         """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
-        used = [name for name in samplers if name in self.compiled.names]
+        used = [name for name in samplers if name in self.compiled.members]
         for unit, name in enumerate(used, first):
             samplers[name].use(unit)
-            self._give(name, unit)
+        self.set(**dict(zip(used, count(first))))
 
     def set(self, **uniforms: object) -> None:
         """Sets loose uniforms by name."""
-        for name, value in uniforms.items():
-            self._give(name, value)
-
-    def _give(self, name: str, value: object) -> None:
         held = self.compiled.values
-        if name not in held or held[name] != value:
-            self.program[name] = value
-            held[name] = value
+        for name, value in uniforms.items():
+            if held.get(name) != value:
+                self.compiled.members[name].value = held[name] = value
+
+    def tell(self, **uniforms: object) -> None:
+        """Sets those of the loose `uniforms` that the program has."""
+        self.set(**{name: value for name, value in uniforms.items() if name in self.compiled.members})
 
     def draw(self) -> None:
         """Draws the triangle that covers the bound target."""
-        self._buffers.bind(self.inputs, self.compiled.names)
+        self._bind()
         self.compiled.triangle.render(moderngl.TRIANGLES, vertices=3)
 
     def draw_boxes(self, boxes: Iterable[Box]) -> None:
         """Draws `boxes` of the bound target alone, by its scissor."""
-        ctx = self.compiled.triangle.ctx
+        self._bind()
+        triangle = self.compiled.triangle
         for box in boxes:
-            ctx.scissor = box
-            self.draw()
-        ctx.scissor = None
+            triangle.ctx.scissor = box
+            triangle.render(moderngl.TRIANGLES, vertices=3)
+        triangle.ctx.scissor = None
 
     def draw_squares(self, squares: Squares | Patches) -> None:
         """Draws `squares` of the bound target alone."""
-        self._buffers.bind(self.inputs, self.compiled.names)
+        self._bind()
         self._squares.draw(self.compiled.squares, squares)
 
     def draw_mesh(self, columns: int, rows: int) -> None:
         """Draws a mesh, by a program whose vertex shader places the two triangles of each of its quads."""
-        self._buffers.bind(self.inputs, self.compiled.names)
+        self._bind()
         self.compiled.triangle.render(moderngl.TRIANGLES, vertices=6 * columns * rows)
 
     def draw_points(self, count: int) -> None:
         """Draws `count` points, by a program whose vertex shader places them."""
-        self._buffers.bind(self.inputs, self.compiled.names)
+        self._bind()
         self.compiled.triangle.render(moderngl.POINTS, vertices=count)
+
+    def _bind(self) -> None:
+        self._buffers.bind(self.inputs, self.compiled.members)

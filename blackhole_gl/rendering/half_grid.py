@@ -150,8 +150,7 @@ class HalfGrid:
         cells = self._programs.get("refine_half_cells.frag", inputs)
         cells.sample({"chosen": made.chosen, "cell_classes": cell_classes, **self._hits, **({} if reached is None else {"cell_balls": reached.cell_balls})})
         cells.set(refine_tolerance=tolerances(inputs), refine_px=inputs.plan.refine_px)
-        if cells.takes("narrow_balls"):
-            cells.set(narrow_balls=narrow)
+        cells.tell(narrow_balls=narrow)
         texture = made.cells.texture
         left = np.where(OWN_RAYS.holds(held) | OPEN_THINGS.holds(held), held, PixelClass.NEITHER.depth)
         texture.write(np.kron(np.rint(255.0 * left).astype(np.uint8), _WHOLE)[: texture.height, : texture.width].tobytes(), alignment=1)
@@ -179,8 +178,7 @@ class HalfGrid:
             into = self._into[len(textures)] = self._ctx.framebuffer(textures, self._made.classes)
         into.use()
         into.depth_mask = False
-        if rays.takes("ray_grid"):
-            rays.set(ray_grid=(1.0, 0.0, 0.0))
+        rays.tell(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
             rays.draw_boxes(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND))
 

@@ -208,8 +208,7 @@ class HitMap:
         self.tables.bind(rays, chosen(plan, *RAY_SLOTS), {**things, **self._ray_blocks.samplers})
         if rays.takes("stray_seen"):
             rays.set(stray_seen=refinement.tolerances(rays.inputs)[0])
-        if rays.takes("meeting_reach"):
-            rays.set(meeting_reach=plan.reach)
+        rays.tell(meeting_reach=plan.reach)
         self.tell_blocks(rays)
 
     @property

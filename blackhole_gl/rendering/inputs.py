@@ -94,7 +94,7 @@ class UniformBuffers:
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
-        self._buffers: dict[str, moderngl.Buffer] = {}
+        self._bindings: tuple[tuple[str, moderngl.Buffer, int], ...] = ()
         self._written: dict[str, bytes] | None = None
 
     def bind(self, inputs: FrameInputs, used: Collection[str]) -> None:
@@ -102,21 +102,21 @@ class UniformBuffers:
         context."""
         if inputs.blocks is not self._written:
             self._write(inputs.blocks)
-        for block in uniforms.blocks():
-            if block.name in used:
-                self._buffers[block.name].bind_to_uniform_block(block.binding)
+        for name, buffer, binding in self._bindings:
+            if name in used:
+                buffer.bind_to_uniform_block(binding)
 
     def _write(self, blocks: dict[str, bytes]) -> None:
-        for name, packed in blocks.items():
-            buffer = self._buffers.get(name)
-            if buffer is None:
-                self._buffers[name] = self._ctx.buffer(packed, dynamic=True)
-            elif self._written is None or packed is not self._written[name]:
-                buffer.write(packed)
+        if not self._bindings:
+            self._bindings = tuple((block.name, self._ctx.buffer(blocks[block.name], dynamic=True), block.binding) for block in uniforms.blocks())
+        elif self._written is not None:
+            for name, buffer, _ in self._bindings:
+                if blocks[name] is not self._written[name]:
+                    buffer.write(blocks[name])
         self._written = blocks
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for buffer in self._buffers.values():
+        for _, buffer, _ in self._bindings:
             buffer.release()
-        self._buffers, self._written = {}, None
+        self._bindings, self._written = (), None

@@ -40,6 +40,12 @@ def is_panorama(item: Field) -> bool:
     return item.kind == "file" and not is_picture(item) and set(item.suffixes) <= set(PANORAMAS)
 
 
+@lru_cache(maxsize=64)
+def _named_by(plug_ins: tuple[PlugIn, ...]) -> tuple[Field, ...]:
+    """Those of the parameters of `plug_ins` that name pictures or panoramas."""
+    return tuple(item for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item) or is_panorama(item))
+
+
 def layers(scene: Scene) -> dict[str, int]:
     """The pictures that things and media of `scene` name → their layers in the array."""
     return {value: layer for layer, (_, value) in enumerate(_named(scene))}
@@ -88,8 +94,7 @@ class Pictures:
         Raises:
             SceneError: a file cannot be used.
         """
-        named = [item for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item) or is_panorama(item)]
-        return {item.glsl_name: self._texture(item, scene) for item in named}
+        return {item.glsl_name: self._texture(item, scene) for item in _named_by(tuple(plug_ins))}
 
     def of_instances(self, scene: Scene) -> dict[str, moderngl.TextureArray]:
         """The array by its sampler's name; nothing where no thing and no medium names a picture.
@@ -115,7 +120,7 @@ class Pictures:
         Raises:
             SceneError: one is not there.
         """
-        single = [(item, scene.get(item.key)) for plug_in in plug_ins for item in plug_in.parameters.values() if is_picture(item) or is_panorama(item)]
+        single = [(item, scene.get(item.key)) for item in _named_by(tuple(plug_ins))]
         own = [(panorama_files if is_panorama(item) else picture_files).stamp(item.key, value) for item, value in single if isinstance(value, str) and value]
         return (*own, *(picture_files.stamp(key, value) for key, value in _named(scene)))
 

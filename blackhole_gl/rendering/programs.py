@@ -26,7 +26,7 @@ from . import uniforms
 from .draw import Compiled, Draw
 from .inputs import FrameInputs, UniformBuffers
 from .squares import SquareBuffer
-from .structure import Structure, same_text, structure_of
+from .structure import Structure, structure_of, told_apart
 
 MOST_KEPT = 96
 """Compiled programs kept, those used last. A frame uses ten, with things in motion twice as many, so the last few scenes come back at once; what else comes
@@ -39,7 +39,7 @@ _VERTEX = {"star_layer.frag": "star_layer.vert", "turned.frag": "turned.vert"}  
 _BETWEEN = "\0"  # a program's two texts, neither of which may hold it
 
 _MOST_RECIPES = 4 * MOST_KEPT  # switches that a text does not mention give further recipes for the same program
-_PLANS = 4  # of a frame: with its media, without, with media in longer steps, and what is metered
+_PLANS = 16  # of a few frames, each with its media, without, with media in longer steps; and what is metered in one of six
 
 
 class Unready(RuntimeError):
@@ -91,7 +91,7 @@ class Programs:
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()
         self._ready: dict[tuple, Compiled] = {}  # by recipe: those asked for since something was last compiled
-        self._asked: deque[tuple[Plan, Structure]] = deque(maxlen=_PLANS)
+        self._asked: deque[tuple[Plan, tuple, Structure]] = deque(maxlen=_PLANS)
         self._seen = self._times()
         self._content: bytes | None = None
 
@@ -149,12 +149,13 @@ class Programs:
 
     def _structure(self, plan: Plan) -> Structure:
         """A frame asks for several programs with each of few plans: worked out once. One that is as before is the same object, found by its identity."""
-        for asked, known in self._asked:
+        for asked, _, known in reversed(self._asked):
             if asked is plan:
                 return known
-        like = next((known for asked, known in self._asked if same_text(asked, plan)), None)
+        own = told_apart(plan)
+        like = next((known for _, other, known in reversed(self._asked) if other == own), None)
         found = like or _as_before(structure_of(plan))
-        self._asked.append((plan, found))
+        self._asked.append((plan, own, found))
         return found
 
     def _compose(self, path: str, structure: Structure, extra: tuple) -> _Texts:

@@ -43,9 +43,7 @@ class RayBlocks:
 
     def tell(self, draw: Draw) -> None:
         """Sets the loose uniforms of shaders/common/observer.glsl that the program has."""
-        for name, value in {"block_side": float(self.side), "block_step": (1.0 / self.shifts.width, 1.0 / self.shifts.height)}.items():
-            if draw.takes(name):
-                draw.set(**{name: value})
+        draw.tell(block_side=float(self.side), block_step=(1.0 / self.shifts.width, 1.0 / self.shifts.height))
 
 
 def shifts_texture(ctx: moderngl.Context, size: tuple[int, int], shifts: Float[np.ndarray, "rows columns 2"] | None = None) -> moderngl.Texture:

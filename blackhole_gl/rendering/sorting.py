@@ -108,5 +108,4 @@ def marks_target(ctx: moderngl.Context, size: tuple[int, int], depth: moderngl.T
 
 def set_hiding(marks: Draw) -> None:
     """Tells a program that makes marks what the disk hides, if it asks."""
-    if marks.takes("disk_hides"):
-        marks.set(disk_hides=hides(marks.inputs.plan.scene))
+    marks.tell(disk_hides=hides(marks.inputs.plan.scene))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from functools import cached_property, lru_cache
+from operator import attrgetter
 
 from ..planning import Plan
 from ..scene import Scene, catalogue, met
@@ -14,7 +15,7 @@ RAY_SLOTS = ("ray_model", "integrator", "step_control")
 SHADE_SLOTS = ("disk_layer", "sky")
 MET_SLOTS = ("thing", "medium")
 
-_SECTIONS = tuple(section.name for section in fields(Scene) if section.name != "camera")
+_sections = attrgetter(*(section.name for section in fields(Scene) if section.name != "camera"))
 
 
 @dataclass(frozen=True)
@@ -45,16 +46,12 @@ def structure_of(plan: Plan) -> Structure:
     return Structure(tuple(paths), tuple(uniforms.switches(plan).items()), instances.glsl(chosen(plan, *MET_SLOTS)))
 
 
-def same_text(plan: Plan, other: Plan) -> bool:
-    """Whether both surely ask for the same text, as they differ in numbers of the camera and of steps alone: so do the frames of a camera that moves."""
-    return _but_for_camera(plan) == _but_for_camera(other) and plan.scene.several(_camera_words()) == other.scene.several(_camera_words())
-
-
-def _but_for_camera(plan: Plan) -> tuple:
-    """What a plan's structure depends on beside its camera."""
+def told_apart(plan: Plan) -> tuple:
+    """Plans for which this is equal surely ask for the same text, as they differ in numbers of the camera and of steps alone: so do the frames of a camera
+    that moves."""
     scene = plan.scene
     of_plan = plan.model, plan.integrator, plan.step_control, plan.orders, plan.meetings, plan.space_time.kind
-    return *of_plan, *(getattr(scene, section) for section in _SECTIONS)
+    return *of_plan, *_sections(scene), *scene.several(_camera_words())
 
 
 @lru_cache(maxsize=1)

@@ -51,7 +51,7 @@ class Tables:
             CatalogueError: a header names what is not there, or what makes no table.
             SceneError: a picture cannot be used.
         """
-        plug_ins = list(plug_ins)
+        plug_ins = tuple(plug_ins)
         made = {table.name: self._texture(table, scene) for plug_in in plug_ins for table in plug_in.tables}
         return {**made, **self.pictures.of(plug_ins, scene)}
 
