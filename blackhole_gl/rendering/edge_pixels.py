@@ -21,9 +21,10 @@ from .target import Target
 _BESIDE = 2  # pixels by which what a pixel shows decides about others
 
 _SEEN = ~np.uint16(EdgeMark.VEILED)  # what of a mark counts
-_LARGEST = np.iinfo(np.uint16).max
+_VEILED, _MET, _NO_RAY = np.uint16(EdgeMark.VEILED), np.uint16(EdgeMark.MET << 8), np.uint16(EdgeMark.NO_RAY)
 _SEEN_THROUGH_VEIL = _SEEN & ~np.uint16(3 * EdgeMark.RING_1)
-_SEEN_THROUGH_VEIL_AT_CORNERS = np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
+_SEEN_THROUGH_VEIL_AT_CORNERS = _MET | np.uint16(EdgeMark.IN_FIELD)
+_MET_TO_ESCAPED = np.uint16(Fate.MET - Fate.ESCAPED)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,37 +132,36 @@ def at_edges(marks: np.ndarray, *, corners: bool = False) -> np.ndarray:
     if marks.size == 0:  # nothing of the picture has rays
         return np.zeros((0, 2), np.intp)
     width = marks.shape[1] + 1
-    flat = np.full((len(marks) + 2, width), EdgeMark.NO_RAY, np.uint16)  # about the picture there are none; one column keeps both sides apart
+    flat = np.full((len(marks) + 2, width), _NO_RAY)  # about the picture there are none; one column keeps both sides apart
     flat[1:-1, 1:] = marks
     flat = flat.ravel()
     found = np.zeros(flat.size, bool)
     at_corners = _SEEN_THROUGH_VEIL if corners else _SEEN_THROUGH_VEIL_AT_CORNERS
-    for apart, through_veil in ((1, _SEEN_THROUGH_VEIL), (width - 1, at_corners), (width, _SEEN_THROUGH_VEIL), (width + 1, at_corners)):
-        first = np.flatnonzero(flat[apart:] != flat[:-apart])
-        first = first[_has_ray(flat[first]) & _has_ray(flat[first + apart])]
-        here, there = flat[first], flat[first + apart]
-        changed = here ^ there
-        found[first[changed & _counts(here, through_veil) != 0]] = True
-        found[first[changed & _counts(there, through_veil) != 0] + apart] = True
+    sides = np.array([1, width, width - 1, width + 1])
+    ray = _has_ray(flat)
+    firsts = [np.flatnonzero((flat[apart:] != flat[:-apart]) & ray[apart:] & ray[:-apart]) for apart in sides]
+    side, first = np.repeat(np.arange(4), list(map(len, firsts))), np.concatenate(firsts)
+    second, through_veil = first + sides[side], np.where(side < 2, _SEEN_THROUGH_VEIL, at_corners)
+    here, there = flat[first], flat[second]
+    changed = here ^ there
+    found[first[changed & np.where(here & _VEILED, through_veil, _SEEN) != 0]] = True
+    found[second[changed & np.where(there & _VEILED, through_veil, _SEEN) != 0]] = True
     rows, columns = np.divmod(np.flatnonzero(found), width)
     return np.stack([columns - 1, rows - 1], axis=-1)
 
 
 def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     """Within or beside which of `pixels` (N, 2) of `marks` (height, width) a thing or a medium is met, bool (N,)."""
+    near = _about(marks, pixels, 1)
+    return (_has_ray(near) & (near & _MET != 0)).any(axis=(0, 1))
+
+
+def _about(marks: np.ndarray, pixels: np.ndarray, beside: int) -> np.ndarray:
+    """The marks within so many pixels of each of `pixels` (N, 2) both ways, uint16 (rows, columns, N): beyond the border of `marks` those at it."""
     height, width = marks.shape
-    flat, found = marks.ravel(), np.zeros(len(pixels), bool)
-    columns, rows = (np.clip(places + np.array([[-1], [0], [1]]), 0, side - 1) for places, side in zip(pixels.T, (width, height)))
-    for row in rows * width:
-        for column in columns:
-            there = flat[row + column]
-            found |= _has_ray(there) & (there >> 8 & EdgeMark.MET != 0)
-    return found
-
-
-def _counts(marks: np.ndarray, through_veil: np.uint16) -> np.ndarray:
-    """The bits in which the mark beside has to differ, if those do of a pixel whose rings are veiled."""
-    return np.where(marks & EdgeMark.VEILED, through_veil, _SEEN)
+    apart = np.arange(-beside, beside + 1)[:, None]
+    columns, rows = (np.clip(places + apart, 0, side - 1) for places, side in zip(pixels.T, (width, height)))
+    return marks.ravel()[(rows * width)[:, None] + columns]
 
 
 def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
@@ -169,25 +169,21 @@ def at_plain_outlines(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:
     beside them nothing is narrower than two pixels, and nothing but what is met and whether the ray comes into the field changes."""
     if not len(pixels):
         return np.zeros(0, bool)
-    near = np.pad(marks, 2, mode="edge")
+    near = _about(marks, pixels, 2)
     least, most = _in_squares(np.minimum, near), _in_squares(np.maximum, near + np.uint16(1)) - np.uint16(1)  # by which no ray counts for nothing
     wide = _in_squares(np.logical_or, most <= least)  # in a square that is all alike
-    plain = _in_squares(np.logical_and, _in_squares(np.logical_and, wide))  # so are the pixels beside it
     near = near[1:-1, 1:-1]
-    seen = np.where(near & 3 == Fate.MET, near - (Fate.MET - Fate.ESCAPED), near) & ~np.uint16(EdgeMark.MET << 8 | EdgeMark.IN_FIELD)
-    has_ray, (height, width) = _has_ray(near), marks.shape
-    for row, column in np.ndindex(3, 3):
-        beside = slice(row, row + height), slice(column, column + width)
-        plain &= ~has_ray[beside] | (seen[beside] == seen[1:-1, 1:-1])
-    return plain[pixels[:, 1], pixels[:, 0]]
+    seen = np.where(near & 3 == Fate.MET, near - _MET_TO_ESCAPED, near) & ~_SEEN_THROUGH_VEIL_AT_CORNERS
+    alike = ~_has_ray(near) | (seen == seen[1, 1])
+    return (wide & alike).all(axis=(0, 1))
 
 
 def _in_squares(of_two: np.ufunc, values: np.ndarray) -> np.ndarray:
-    """What `of_two` makes of each square of 2×2."""
+    """What `of_two` makes of each square of 2×2, by the first two axes."""
     pairs = of_two(values[1:], values[:-1])
     return of_two(pairs[:, 1:], pairs[:, :-1])
 
 
 def _has_ray(marks: np.ndarray) -> np.ndarray:
     """Which pixels have rays of their own."""
-    return (marks & 255) != EdgeMark.NO_RAY
+    return (marks & _NO_RAY) != _NO_RAY
