@@ -43,8 +43,6 @@ _CLEAR, _NOT_CLEAR = 128, 255
 # Of its cells, those along a side of one of the coarse grid's.
 _ALONG = REFINE_STEP // HALF_STEP
 
-_WHOLE = np.ones((_ALONG, _ALONG), np.uint8)
-
 # Rows of these cells whose pixels are drawn at a time.
 _BAND = 32
 
@@ -153,7 +151,7 @@ class HalfGrid:
         cells.tell(narrow_balls=narrow)
         texture = made.cells.texture
         left = np.where(OWN_RAYS.holds(held) | OPEN_THINGS.holds(held), held, PixelClass.NEITHER.depth)
-        texture.write(np.kron(np.rint(255.0 * left).astype(np.uint8), _WHOLE)[: texture.height, : texture.width].tobytes(), alignment=1)
+        texture.write(_parted(np.rint(255.0 * left).astype(np.uint8))[: texture.height, : texture.width].tobytes(), alignment=1)
         made.cells.frame.use()
         cells.draw_boxes(bands_of(self._chosen, texture.size, _ALONG, _BAND // _ALONG))
         self.cells = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width) * np.float32(1.0 / 255.0)
@@ -184,7 +182,7 @@ class HalfGrid:
 
     def pack(self) -> RayBlocks | None:
         """The rays that are left to pixels which may show things, side by side; None where there are none."""
-        nodes = np.kron(self._with_nodes, _WHOLE)[: self.cells.shape[0], : self.cells.shape[1]] > 0
+        nodes = _parted(self._with_nodes)[: self.cells.shape[0], : self.cells.shape[1]]
         return self._made.packed.blocks if self._made.packed.choose(OPEN_THINGS.holds(self.cells), nodes) else None
 
     def trace_packed(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
@@ -272,6 +270,11 @@ def narrow_balls(inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], bodie
     distances = np.linalg.norm(balls[seen, :3] - camera.distance * np.array([s * cos_azimuth, s * sin_azimuth, c]), axis=1)
     wide = bodies[seen] & (balls[seen, 3] > 0.5 * _WIDE_PX * pixel * distances)
     return int(np.sum(1 << np.flatnonzero(~wide)))
+
+
+def _parted(cells: np.ndarray) -> np.ndarray:
+    """The same values of the smaller cells that each of the coarse grid's `cells` (rows, columns) is made of."""
+    return cells.repeat(_ALONG, axis=0).repeat(_ALONG, axis=1)
 
 
 def _about(cells: Bool[np.ndarray, "rows columns"]) -> Int[np.ndarray, "rows columns"]:

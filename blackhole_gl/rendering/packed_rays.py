@@ -6,12 +6,13 @@ Software renderers shade eight pixels together, whichever of them are asked for 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import moderngl
 import numpy as np
 
 from ..planning import HALF_STEP
-from ..shapes import Bool, Int
+from ..shapes import Bool, Float
 from .draw import Draw
 from .ray_blocks import RayBlocks, shifts_texture
 from .squares import TOGETHER
@@ -20,6 +21,7 @@ from .target import Target, plain_texture
 _WIDTH = 63 * TOGETHER  # of the map, in pixels: no power of two (docs/llvmpipe.md)
 _FIRST_ROWS = 9 * TOGETHER
 _IN_BLOCK = TOGETHER**2
+_PARTS = np.array([(part % HALF_STEP, part // HALF_STEP) for part in range(HALF_STEP**2)], np.float32)  # of a cell: columns and rows of its pixels
 
 
 class PackedRays:
@@ -48,11 +50,10 @@ class PackedRays:
         numbers = np.zeros(cells.shape, np.float32)
         numbers[rows, columns] = np.where(known, -1 - first, first)
         self.numbers.write(numbers.tobytes(), alignment=1)
-        of = np.repeat(np.arange(len(ends)), HALF_STEP**2 - known)
-        part = np.arange(ends[-1]) - (first - known)[of]
-        pixels = HALF_STEP * np.stack([columns, rows], axis=-1)[of] + np.stack([part % HALF_STEP, part // HALF_STEP], axis=-1)
-        self._write(pixels)
-        return len(pixels)
+        left = np.ones((len(ends), HALF_STEP**2), bool)
+        left[:, 0] = ~known
+        self._write((HALF_STEP * np.stack([columns, rows], axis=-1).astype(np.float32)[:, None] + _PARTS)[left])
+        return int(ends[-1])
 
     def trace(self, rays: Draw) -> None:
         """Traces them; `rays` are of `blocks`."""
@@ -85,14 +86,15 @@ class PackedRays:
             raise RuntimeError("no rays have been chosen yet: `choose` comes first")
         return self._rays
 
-    def _write(self, pixels: Int[np.ndarray, "rays 2"]) -> None:
-        """Tells where the rays are from; what is left of the last blocks are those of the last pixel."""
+    def _write(self, pixels: Float[np.ndarray, "rays 2"]) -> None:
+        """Tells where the rays are from, whose blocks of `TOGETHER`² lie side by side (shaders/refine_half_put.frag); what is left of the last blocks are those
+        of the last pixel."""
         across = _WIDTH // TOGETHER
         self._rows = TOGETHER * -(-len(pixels) // (_IN_BLOCK * across))
-        number = np.arange(self._rows * _WIDTH)
-        place = np.stack(texel_of(number), axis=-1)
-        shifts = np.zeros((self._rows, _WIDTH, 2), np.float32)
-        shifts[place[:, 1], place[:, 0]] = pixels[np.minimum(number, len(pixels) - 1)] - place
+        whole = np.empty((self._rows * _WIDTH, 2), np.float32)
+        whole[: len(pixels)], whole[len(pixels) :] = pixels, pixels[-1]
+        in_blocks = whole.reshape(self._rows // TOGETHER, across, TOGETHER, TOGETHER, 2)
+        shifts = in_blocks.swapaxes(1, 2).reshape(self._rows, _WIDTH, 2) - _texels(self._rows)
         if self._shifts is None or self._rays is None or self._shifts.height < self._rows:
             for item in (self._rays, self._shifts):
                 if item is not None:
@@ -103,8 +105,7 @@ class PackedRays:
         self._shifts.write(shifts.tobytes(), (0, 0, _WIDTH, self._rows))
 
 
-def texel_of(number: Int[np.ndarray, " rays"]) -> tuple[Int[np.ndarray, " rays"], Int[np.ndarray, " rays"]]:
-    """Column and row of each ray in the map, by its number: blocks of `TOGETHER`² lie side by side (shaders/refine_half_put.frag)."""
-    block, within = np.divmod(number, _IN_BLOCK)
-    row, column = np.divmod(block, _WIDTH // TOGETHER)
-    return TOGETHER * column + within % TOGETHER, TOGETHER * row + within // TOGETHER
+@lru_cache(maxsize=8)
+def _texels(rows: int) -> Float[np.ndarray, "rows columns 2"]:
+    """Column and row of each texel of so many rows of the map, float32."""
+    return np.stack(np.meshgrid(np.arange(_WIDTH), np.arange(rows)), axis=-1).astype(np.float32)

@@ -37,7 +37,9 @@ class Squares:
         whose middle lies outside is not drawn at all."""
         corner = np.minimum(side * places, np.array(size) - side)
         middle = (2.0 * corner + side) / np.array(size) - 1.0
-        return cls(side, places, np.column_stack([middle, np.full(len(places), side)]).astype(np.float32))
+        points = np.empty((len(places), 3), np.float32)
+        points[:, :2], points[:, 2] = middle, side
+        return cls(side, places, points)
 
     @classmethod
     def holding(cls, pixels: Int[np.ndarray, "pixels 2"], side: int, size: tuple[int, int]) -> Squares:

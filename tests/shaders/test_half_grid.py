@@ -11,7 +11,7 @@ from blackhole_gl.rendering.frame_met import FrameMet
 from blackhole_gl.rendering.half_grid import HalfGrid, narrow_balls
 from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.rendering.inputs import FrameInputs
-from blackhole_gl.rendering.packed_rays import PackedRays, texel_of
+from blackhole_gl.rendering.packed_rays import PackedRays
 from blackhole_gl.scene import Scene, presets
 
 SIZE = (320, 180)
@@ -147,6 +147,13 @@ def test_what_a_moving_ray_meets_of_a_mesh_lies_no_farther_from_its_way_than_out
     assert both.mean() > 0.03 and 0.0 < np.quantile(pixels, 0.99) <= 0.8 * scene.rays.tolerance
 
 
+def _texel_of(number: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where shaders/refine_half_put.frag looks for rays of that number: column and row."""
+    block, within = np.divmod(number, 16)
+    row, column = np.divmod(block, 63)
+    return 4 * column + within % 4, 4 * row + within // 4
+
+
 def test_rays_that_are_packed_are_those_of_their_pixels(renderer: Renderer) -> None:
     """Four of each cell, but for the first where that is known; as many again, and fewer, as the map has had."""
     rng, size = np.random.default_rng(3), (131, 90)
@@ -162,7 +169,7 @@ def test_rays_that_are_packed_are_those_of_their_pixels(renderer: Renderer) -> N
             first = numbers[rows, columns]
             np.testing.assert_array_equal(first < 0, known[rows, columns])
             traced = (first >= 0) | (part > 0)
-            x, y = texel_of(np.where(first < 0, part - 2 - first, first + part)[traced])
+            x, y = _texel_of(np.where(first < 0, part - 2 - first, first + part)[traced])
             np.testing.assert_array_equal(places[y, x] + np.stack([x, y], axis=-1), np.stack([2 * columns + part % 2, 2 * rows + part // 2], axis=-1)[traced])
     packed.release()
 
