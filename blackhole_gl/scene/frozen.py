@@ -13,10 +13,16 @@ R = TypeVar("R")
 
 
 def changed(record: R, **values: Any) -> R:
-    """``dataclasses.replace`` for frozen records that check nothing when they are made, in a fifth of its time: a frame makes twenty."""
-    made = object.__new__(type(record))
-    own = vars(record)
-    vars(made).update({name: own[name] for name in _names(type(record))}, **values)
+    """``dataclasses.replace`` for frozen records that check nothing when they are made, in a fifth of its time: a frame makes twenty.
+
+    Raises:
+        TypeError: they have no field of a name given.
+    """
+    made: Any = object.__new__(type(record))
+    own, names = record.__dict__, _names(type(record))  # the first may hold what is worked out of the fields, too
+    made.__dict__.update({name: own[name] for name in names}, **values)
+    if len(made.__dict__) > len(names):
+        raise TypeError(f"{type(record).__name__} has no {', '.join(values.keys() - set(names))}")
     return made
 
 

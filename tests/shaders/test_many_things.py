@@ -5,10 +5,13 @@ from __future__ import annotations
 import sys
 from types import FrameType
 
+import moderngl
 import numpy as np
 
+from blackhole_gl.planning import Plan, plan
 from blackhole_gl.rendering.frame import Renderer
-from blackhole_gl.scene import Scene, presets
+from blackhole_gl.rendering.instances import InstanceTables
+from blackhole_gl.scene import FrozenMap, Scene, presets
 
 SIZE = (36, 20)
 
@@ -80,3 +83,25 @@ def test_small_things_before_a_large_one_leave_its_other_pixels_as_they_are(rend
     np.testing.assert_array_equal(of_large[1], of_large[0] & ~small)
     apart = np.linalg.norm(found[1].met_place[of_large[1], 0] - found[0].met_place[of_large[1], 0], axis=-1)
     assert apart.max() < 1e-3, "r_s: pieces stray by no more than that, and the place is stepped to again"
+
+
+def test_tables_of_things_are_those_of_their_scene_whatever_was_asked_for_before(ctx: moderngl.Context) -> None:
+    """Each is as when it is the first to be made; while only the camera moves nothing is made."""
+    scene = presets.load(["kerr"], {f"things.{name}.kind": kind for name, kind in (("ball", "sphere"), ("knot", "mesh"), ("lamp", "lamp"))})
+    moving = {"things.ball.path": "geodesic", "things.ball.orbit_radius": 8.0}
+    changes = [{}, {"camera.azimuth_deg": 50.0}, {"things.ball.radius": 0.3}, moving, {**moving, "hole.spin": 0.2}, {"things.lamp.brightness": 7.0}]
+    changes += [{"things.knot.file": ""}, {"rays.light_travel": True}, {**moving, "rays.light_travel": True}, {"media.fog.kind": "slab"}]
+    tables = InstanceTables(ctx)
+    for values in (*changes, *reversed(changes)):
+        for time in (0.0, 3.0):
+            made, alone = plan(scene.with_values(values)), InstanceTables(ctx)
+            assert _contents(tables, made, time) == _contents(alone, made, time), values
+            alone.release()
+    first, moved = plan(scene), plan(scene.with_values({"camera.inclination_deg": 20.0}))
+    kept = tables._tables(first, 0.0, FrozenMap())
+    assert tables._tables(moved, 5.0, FrozenMap()) is kept
+    tables.release()
+
+
+def _contents(tables: InstanceTables, made: Plan, time: float) -> dict[str, bytes]:
+    return {name: texture.read() for name, texture in tables.samplers(made, time).items()}

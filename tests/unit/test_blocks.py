@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.blocks import Block
+from blackhole_gl.planning import plan
 from blackhole_gl.rendering import uniforms
+from blackhole_gl.scene import catalogue, presets
 
 
 def test_offsets_follow_std140():
@@ -64,3 +66,23 @@ def test_the_driver_agrees_about_every_offset(ctx):
         target.use()
         ctx.vertex_array(program, []).render(vertices=3)
         assert np.frombuffer(target.color_attachments[0].read(), np.float32).tolist() == expected
+
+
+def test_one_number_of_packed_bytes_is_changed_alone():
+    block = Block("B", 0, (("a", "float"), ("count", "int"), ("v", "vec2")))
+    values = {"a": 1.5, "count": 3, "v": (2.0, 4.0)}
+    assert block.changed(block.pack(values), "a", 7.0) == block.pack({**values, "a": 7.0})
+    assert block.changed(block.pack(values), "v", (5.0, 6.0)) == block.pack({**values, "v": (5.0, 6.0)})
+
+
+@pytest.mark.parametrize(
+    "slot, key, switch, other",
+    [("disk_layer", "hot_spot", {"disk.hot_spot": True}, {"disk.hot_spot": False}), ("sky", "drifting_field", {"sky.model": "drifting_field"}, {})],
+)
+def test_numbers_of_a_plug_in_are_made_where_it_is_used(slot, key, switch, other):
+    """Its shader text is in no other program."""
+    used, unused = plan(presets.load(["kerr"], switch)), plan(presets.load(["kerr"], other))
+    made, nothing = uniforms.shade_values(used, 3.0), uniforms.shade_values(unused, 3.0)
+    for number in catalogue.plug_ins(slot)[key].numbers:
+        np.testing.assert_array_equal(made[number.name], number.at(used.scene, 3.0))
+        assert not np.any(nothing[number.name])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import pickle
 
@@ -10,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from blackhole_gl.physics.flight_files import FlightError
-from blackhole_gl.scene import Scene, SceneError, fields
+from blackhole_gl.scene import Scene, SceneError, fields, frozen
 from blackhole_gl.scene.presets import PresetError
 from blackhole_gl.scene.schema import Field
 
@@ -165,3 +166,15 @@ def test_text_of_a_command_line(key, text, value):
 def test_text_that_says_no_value(key, text):
     with pytest.raises(SceneError, match=key):
         fields()[key].parse(text)
+
+
+def test_a_record_with_other_values_is_as_if_made_with_them() -> None:
+    plain = Scene()
+    hash(plain)
+    made = frozen.changed(plain.camera, distance=9.0, fov_deg=30.0)
+    assert made == dataclasses.replace(plain.camera, distance=9.0, fov_deg=30.0) and made != plain.camera == Scene().camera
+    assert hash(made) == hash(dataclasses.replace(plain.camera, distance=9.0, fov_deg=30.0))
+    with pytest.raises(TypeError, match="Camera has no distanse"):
+        frozen.changed(plain.camera, distanse=9.0)
+    kept = plain.with_values({"camera.distance": 9.0})
+    assert kept.hole is plain.hole and kept.parameters is plain.parameters, "what is compared next is found by its identity"
