@@ -1,6 +1,7 @@
 #version 330 core
 // Rays at every reach_step-th pixel → what becomes of them, and whether they come near any of the balls that things lie in (common/reach.glsl): for
 // reach_cells.frag. They end on no thing and look for no crossing; those that take more than reach_steps are given up.
+// REACH_PARTS: parts of things count, where these have many (common/reach_parts.glsl).
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -9,11 +10,22 @@
 #include "common/hermite.glsl"
 #include "common/hits.glsl"
 #include "common/curve.glsl"
+#include "common/disk_plane.glsl"
+#if REACH_PARTS
+#include "common/earlier.glsl"
+#include "common/matter.glsl"
+#instances
+#slots thing
+#include "common/meetings.glsl"
+#endif
 #slot ray_model
 #slot integrator
 #slot step_control
 #include "common/march.glsl"
 #include "common/reach.glsl"
+#if REACH_PARTS
+#include "common/reach_parts.glsl"
+#endif
 
 uniform int reach_steps;
 uniform float reach_step; // pixels from ray to ray
@@ -61,13 +73,17 @@ void main() {
     RayStart start = ray_start(pixel_direction(pixel));
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
-    March m = march_start(orbit, ray_init(start, orbit, hits));
+    State first = ray_init(start, orbit, hits);
+    March m = march_start(orbit, first);
     Path path = ray_path(orbit, m.s);
     Spot here = spot_of(path);
     Margin margin = reach_margin(here);
     int fate = UNRESOLVED;
     Reached reached = NONE_REACHED;
     int steps = 0;
+#if REACH_PARTS
+    NearParts parts = NO_PARTS;
+#endif
     do {
         march_once(orbit, m);
         Path old = path;
@@ -93,9 +109,18 @@ void main() {
             if (pieces > 1) finish = turns ? margin_about(margins.y) : margin_between(margin_before, margin, gone.y);
             Reached found = balls_near(before, after, begin, finish);
             if (under_way) reached = reached_on(reached, found);
+#if REACH_PARTS
+            uint seen = under_way ? (found.near | found.between) & reach_parted : 0u;
+            parts = near_parts_on(parts, seen, pieces == 1 && !falls, steps, leaves ? part : 1.0, begin.most, finish.most);
+#endif
             before = after;
         } while (++done < pieces);
         fate = under_way ? (leaves ? ESCAPED : falls ? CAPTURED : UNRESOLVED) : fate;
     } while (++steps < reach_steps && any_of_quad(fate == UNRESOLVED));
+#if REACH_PARTS
+    uint missed = parts.balls & ~near_to_parts(orbit, first, parts);
+    reached.near &= ~missed;
+    reached.between &= ~missed;
+#endif
     node = packed_node(fate, reached);
 }

@@ -51,6 +51,9 @@ _TILE = 64
 FINER = {"REACH_FINER": 1}
 """The switch of the program that tells of cells what is first told of squares."""
 
+PARTS = {"ORDERS": 0, "REACH_PARTS": 1}
+"""The switches of rays that are held against the parts of things, too."""
+
 
 @dataclass(frozen=True, eq=False)
 class Reached:
@@ -160,15 +163,20 @@ class Reach:
         each_its_own = np.count_nonzero(seen) == len(few)
         own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
         table = {"reach_balls": self._table(few, own, filled)}
-        nodes.set(reach_count=len(few), reach_steps=inputs.plan.reach_steps, reach_radii=_shell(inputs.plan))
-        nodes.set(reach_not_linear=_BY_ITSELF if exact else _NOT_LINEAR)
+        balls_held: dict[str, object] = {"reach_count": len(few), "reach_steps": inputs.plan.reach_steps, "reach_radii": _shell(inputs.plan)}
+        balls_held["reach_not_linear"] = _BY_ITSELF if exact else _NOT_LINEAR
+        nodes.set(**balls_held)
         if inputs.plan.model.traits.field:
             nodes.set(reach_stride=_stride(inputs.plan))
         found: Sequence[moderngl.Texture] = ()
+        parted, things = _parted(inputs.plan, own), dict[str, moderngl.Texture]()
         for step, level in made.levels.items():
             if found:
                 self._mark(inputs, level, found[0])
-            self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), table)
+            if parted and step == REFINE_STEP:
+                nodes, things = self._programs.get("reach_nodes.frag", inputs, PARTS), self._tables.instances.samplers(inputs.plan, inputs.time)
+                nodes.set(reach_parted=parted, **balls_held)
+            self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {**table, **things})
             nodes.set(reach_step=float(step), reach_first=tuple(map(float, level.box[:2])))
             frame = level.nodes.frame
             frame.use()
@@ -229,6 +237,14 @@ class Reach:
         texels[0, : len(balls), 3] *= np.where(fills, -1.0, 1.0)
         self._balls.write(texels.tobytes())
         return self._balls
+
+
+def _parted(plan: Plan, numbers: Int[np.ndarray, " balls"]) -> int:
+    """A bit for each ball in which a thing of many parts lies, that rays are held against; 0 in fields, which march in steps of another kind."""
+    if plan.model.traits.field or plan.meetings != 1:
+        return 0
+    apart = [number for number, kind in enumerate(met.kinds(plan.scene, "thing")) if kind.traits.tells_apart]
+    return int(np.sum(1 << np.flatnonzero((numbers > 0) & np.isin((numbers - 1) % 32, apart))))
 
 
 def steps(height: int) -> list[int]:

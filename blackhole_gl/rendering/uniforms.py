@@ -198,7 +198,8 @@ def scene_values(plan: Plan) -> dict[str, object]:
 def switches(plan: Plan) -> dict[str, int]:
     """Every ``#define`` that shader text may ask for."""
     found = {"ORDERS": plan.orders, "MARCHED": int(plan.integrator is not None), "RAYS_LISTED": 0, "HIT_MAP_REFINED": 0}
-    found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "HALF_MARGIN": HALF_MARGIN, "REACH_FINER": 0, "CELLS_FILLED": 0, "BALLS_KNOWN": 0}
+    found |= {"REFINE_STEP": REFINE_STEP, "GRID_MARGIN": GRID_MARGIN, "HALF_MARGIN": HALF_MARGIN, "CELLS_FILLED": 0}
+    found |= {"REACH_FINER": 0, "REACH_PARTS": 0, "BALLS_KNOWN": 0}
     found |= {"MEETINGS": plan.meetings, "NO_MEETINGS": 0, "MEDIA": int(bool(plan.scene.media)), **instances.switches(plan.scene)}
     found |= {"DISK_TILTED": int(plan.scene.disk.tilt_deg != 0.0), "THINGS": int(bool(plan.scene.things)), "STRETCHES": 0, "GRID": 0}
     found |= {"SKY_BEHIND": 0, "TURNED": 0}

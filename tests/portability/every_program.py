@@ -14,7 +14,7 @@ from blackhole_gl.rendering.kept_samples import MOST_SAMPLES
 from blackhole_gl.rendering.known_light import TURNED
 from blackhole_gl.rendering.post import TONE_TABLE
 from blackhole_gl.rendering.programs import Programs
-from blackhole_gl.rendering.reach import ALONE, FINER
+from blackhole_gl.rendering.reach import ALONE, FINER, PARTS
 from blackhole_gl.rendering.refinement import FILLED
 from blackhole_gl.rendering.turning import can_turn
 from blackhole_gl.rendering.uniforms import stars_a_pixel
@@ -168,6 +168,8 @@ def _of_instances() -> Iterator[Wanted]:
                 yield "reach_field.frag" if made.model.traits.field else "reach_nodes.frag", f"{kind} by {model}", made, ALONE
                 yield from (("reach_cells.frag", f"{kind} by {model}", made, switches) for switches in ({}, FINER))
                 yield "reach_marks.frag", f"{kind} by {model}", made, {}
+                if slot == "thing" and catalogue.plug_ins(slot)[kind].traits.tells_apart and not made.model.traits.field and made.reach_steps:
+                    yield "reach_nodes.frag", f"{kind} by {model}", made, PARTS
                 if made.meetings == 1:
                     plain = ("marks", "things", "bends", "fill", "half_marks", "half_put")
                     filled = *((f"refine_{name}.frag", {}) for name in plain), ("refine_cells.frag", FILLED)
