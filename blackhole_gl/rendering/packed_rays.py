@@ -38,10 +38,11 @@ class PackedRays:
         self._rays: Target | None = None
         self._shifts: moderngl.Texture | None = None
         self._rows = 0  # in use
+        self._order = in_squares(cells)
 
     def choose(self, cells: Bool[np.ndarray, "rows columns"], first_is_known: Bool[np.ndarray, "rows columns"]) -> int:
         """Packs the rays of `cells`; of those whose `first_is_known` all but that of their first pixel. Returns how many rays there are."""
-        rows, columns = np.nonzero(cells)
+        rows, columns = np.divmod(self._order[cells.ravel()[self._order]], cells.shape[1])
         known = first_is_known[rows, columns]
         ends = np.cumsum(HALF_STEP**2 - known)
         if not len(ends):
@@ -109,3 +110,12 @@ class PackedRays:
 def _texels(rows: int) -> Float[np.ndarray, "rows columns 2"]:
     """Column and row of each texel of so many rows of the map, float32."""
     return np.stack(np.meshgrid(np.arange(_WIDTH), np.arange(rows)), axis=-1).astype(np.float32)
+
+
+def in_squares(size: tuple[int, int]) -> Int[np.ndarray, " cells"]:
+    """The places of so many cells, row by row, in an order in which near ones follow each other: those of each quarter of a square, and of each quarter of that."""
+    columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
+    key = np.zeros(columns.shape, int)
+    for bit in range(max(size).bit_length()):
+        key |= (columns >> bit & 1) << 2 * bit | (rows >> bit & 1) << 2 * bit + 1
+    return np.argsort(key, axis=None)
