@@ -19,11 +19,11 @@
 
 uniform sampler2D chosen;        // refine_half_marks.frag
 uniform sampler2D cell_classes;
-uniform sampler2D half0;         // of the rays: hits, as traced
+uniform sampler2D half_ends;     // of the rays: where they end and on what (refine_half_ends.frag); without things their hits, as traced
 uniform vec2 refine_tolerance;   // refine_nodes.frag
 uniform float refine_px;
 #if MEETINGS
-uniform sampler2D half_met, half_way;
+uniform sampler2D half0, half_way;  // hits, as traced
 uniform usampler2D cell_balls;   // reach_cells.frag
 uniform uint narrow_balls;       // those that may be seen narrower than the rays are apart
 #endif
@@ -38,17 +38,24 @@ bool has_parts(int what) {
     return false;
 }
 
-// What a ray ends on, more than 0, or its fate, negative; 0 of a ray that ends nowhere. And where: a place, with the normal of what has parts, or a direction.
-int end_of(ivec2 node, out vec3 place, out vec3 facing) {
-    vec4 escape = texelFetch(half0, node, 0);
-    facing = escape.xyz * inversesqrt(max(dot(escape.xyz, escape.xyz), 1e-20));
+// What a ray ends on, more than 0, or its fate, negative; 0 of a ray that ends nowhere. And where: a place or a direction.
+int end_of(ivec2 node, out vec3 place) {
+    vec4 end = texelFetch(half_ends, node, 0);
+    place = end.xyz;
 #if MEETINGS
-    vec4 met = texelFetch(half_met, node, 0);
-    place = met.w > 0.0 ? met.xyz : escape.xyz;
-    return met.w > 0.0 ? int(met.w + 0.5) : -texel_fate(escape);
+    return int(round(end.w));
 #else
-    place = escape.xyz;
-    return -texel_fate(escape);
+    return -texel_fate(end);
+#endif
+}
+
+// The normal of the part that a ray ends on, of what has some.
+vec3 facing_at(ivec2 node) {
+#if MEETINGS
+    vec3 note = texelFetch(half0, node, 0).xyz;
+    return note * inversesqrt(max(dot(note, note), 1e-20));
+#else
+    return vec3(0.0);
 #endif
 }
 
@@ -72,7 +79,7 @@ struct Row {
 const int MIDDLE = 12, FIRST = 2, LAST = 16, ALL_SIX = 63;
 
 bool is_there(ivec2 node) {
-    return node == clamp(node, ivec2(0), textureSize(half0, 0) - 1);
+    return node == clamp(node, ivec2(0), textureSize(half_ends, 0) - 1);
 }
 
 // Whether places on what has parts lie side by side: either's part leads on to the other, in a step that is not much longer than what of it lies across the rays.
@@ -86,14 +93,15 @@ bool lie_together(vec3 apart, vec3 one_facing, vec3 other_facing, vec3 along) {
 Row row_from(ivec2 first, ivec2 step, int what, bool of_parts, vec3 along) {
     Row row;
     row.alike = 0;
-    vec3 facing[6];
     for (int k = 0; k < 6; ++k) {
         ivec2 node = first + k * step;
-        if (end_of(node, row.place[k], facing[k]) == what && (k > 0 && k < 5 || is_there(node))) row.alike |= 1 << k;
+        if (end_of(node, row.place[k]) == what && (k > 0 && k < 5 || is_there(node))) row.alike |= 1 << k;
     }
     if (of_parts) {
+        vec3 facing[4];
+        for (int k = 0; k < 4; ++k) facing[k] = facing_at(first + (k + 1) * step);
         for (int k = 1; k < 4; ++k)
-            if (!lie_together(row.place[k + 1] - row.place[k], facing[k], facing[k + 1], along)) row.alike &= ~(k == 1 ? FIRST : k == 3 ? LAST : MIDDLE);
+            if (!lie_together(row.place[k + 1] - row.place[k], facing[k - 1], facing[k], along)) row.alike &= ~(k == 1 ? FIRST : k == 3 ? LAST : MIDDLE);
     }
     return row;
 }
@@ -110,9 +118,9 @@ int way_along(int alike) {
 // that comes in between two rays.
 bool is_wide_beyond(ivec2 first, ivec2 step, int what) {
     bool other[6];
-    vec3 place, facing;
+    vec3 place;
     for (int k = 0; k < 6; ++k)
-        other[k] = end_of(first + k * step, place, facing) != what;
+        other[k] = end_of(first + k * step, place) != what;
     return other[2] && other[1] && (other[0] || other[3]) || other[3] && other[4] && (other[5] || other[2]);
 }
 
@@ -154,8 +162,8 @@ vec3 across(vec3 v, vec3 along) {
 
 void main() {
     ivec2 pixels = ivec2(gl_FragCoord.xy), cell = pixels / 2, corner = pixels + HALF_MARGIN;
-    vec3 start, facing, along = vec3(0.0), error[4];
-    int what = end_of(corner, start, facing);
+    vec3 start, along = vec3(0.0), error[4];
+    int what = end_of(corner, start);
     bool of_parts = has_parts(what);
 #if MEETINGS
     if (of_parts) {

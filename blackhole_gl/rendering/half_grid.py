@@ -6,7 +6,7 @@ It is for cells whose pixels would all have rays of their own, where many of the
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import moderngl
@@ -16,7 +16,7 @@ from ..glsl.declared import PixelClass
 from ..physics.observer import cos_sin_deg
 from ..planning import HALF_MARGIN, HALF_STEP, REFINE_STEP
 from ..shapes import Bool, Float, Int
-from .boxes import bands_of
+from .boxes import Box, bands_of
 from .classes import MATTER, OPEN_THINGS, OWN_RAYS, Where, drawn
 from .draw import Draw
 from .inputs import FrameInputs
@@ -46,6 +46,9 @@ _ALONG = REFINE_STEP // HALF_STEP
 # Rows of these cells whose pixels are drawn at a time.
 _BAND = 32
 
+# Depth of rays that are not asked for (shaders/refine_half_marks.frag).
+_UNASKED = 0.5
+
 WITHOUT_THINGS, WITH_THINGS = Where("<", 0.75), Where(">", 0.25)
 """The rays by shaders/refine_half_marks.frag."""
 
@@ -60,6 +63,7 @@ class _Made:
         rays: their hits, with a depth by which they are drawn.
         without_things: draws into the first of those textures alone.
         marks: draws that depth.
+        ends: what refine_half_ends.frag makes of them; None without things.
         cells: of 2×2 pixels, R8, as shaders/refine_half_cells.frag leaves them.
         classes: depth of the picture's size, by these.
         sorted: draws into `classes`.
@@ -72,14 +76,16 @@ class _Made:
     without_things: moderngl.Framebuffer
     depth: moderngl.Texture
     marks: moderngl.Framebuffer
+    ends: Target | None
     cells: Target
     classes: moderngl.Texture
     sorted: moderngl.Framebuffer
     packed: PackedRays
 
     def release(self) -> None:
-        for item in (self.chosen, self.rays, self.without_things, self.marks, self.depth, self.cells, self.sorted, self.classes, self.packed):
-            item.release()
+        for item in (self.chosen, self.rays, self.without_things, self.marks, self.depth, self.ends, self.cells, self.sorted, self.classes, self.packed):
+            if item is not None:
+                item.release()
 
 
 class HalfGrid:
@@ -97,6 +103,7 @@ class HalfGrid:
         self._rays = 0  # of the last picture
         self._chosen = np.empty((0, 0), bool)  # of the coarse grid's cells
         self._with_nodes = np.empty((0, 0), bool)  # those of them that may show things
+        self._ray_boxes: list[Box] = []  # hold all rays
 
     def choose(
         self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"], *, first: bool = False
@@ -120,7 +127,9 @@ class HalfGrid:
         made.rays.frame.clear()
         marks = self._programs.get("refine_half_marks.frag", inputs)
         marks.sample({"chosen": made.chosen})
-        self._write_depth(made.marks, marks, None)
+        self._ray_boxes = list(_nodes_about(together, made.depth.size))
+        made.marks.clear(depth=_UNASKED)
+        self._write_depth(made.marks, marks, self._ray_boxes)
         return True
 
     def trace(self, rays: Draw, where: Where) -> None:
@@ -145,6 +154,12 @@ class HalfGrid:
             narrow: a bit for each of its balls that may be seen narrower than two pixels (`narrow_balls`).
         """
         made = self._made
+        if made.ends is not None:
+            ends = self._programs.get("refine_half_ends.frag", inputs)
+            ends.sample(self._hits)
+            made.ends.frame.clear()
+            made.ends.frame.use()
+            ends.draw_boxes(self._ray_boxes)
         cells = self._programs.get("refine_half_cells.frag", inputs)
         cells.sample({"chosen": made.chosen, "cell_classes": cell_classes, **self._hits, **({} if reached is None else {"cell_balls": reached.cell_balls})})
         cells.set(refine_tolerance=tolerances(inputs), refine_px=inputs.plan.refine_px)
@@ -159,7 +174,8 @@ class HalfGrid:
         sort.sample({"cell_classes": texture})
         sort.set(pixels_to_cells=tuple(1.0 / (HALF_STEP * side) for side in texture.size), all_traced=0.0)
         made.sorted.clear(depth=PixelClass.NEITHER.depth)
-        self._write_depth(made.sorted, sort, np.abs(self.cells - PixelClass.NEITHER.depth) > 0.05)
+        asked = np.abs(self.cells - PixelClass.NEITHER.depth) > 0.05
+        self._write_depth(made.sorted, sort, bands_of(asked, inputs.size, HALF_STEP, _BAND))
 
     def fill(self, inputs: FrameInputs, textures: Sequence[moderngl.Texture]) -> None:
         """Writes what is interpolated into `textures`, of the picture's size."""
@@ -221,17 +237,14 @@ class HalfGrid:
 
     @property
     def _hits(self) -> Mapping[str, moderngl.Texture]:
-        textures = self._made.rays.textures
-        return {"half0": textures[0], **dict(zip(("half_met", "half_way"), textures[1:]))}
+        textures, ends = self._made.rays.textures, self._made.ends
+        return {"half0": textures[0], **dict(zip(("half_met", "half_way"), textures[1:])), "half_ends": textures[0] if ends is None else ends.texture}
 
-    def _write_depth(self, into: moderngl.Framebuffer, draw: Draw, picked: Bool[np.ndarray, "rows columns"] | None) -> None:
+    def _write_depth(self, into: moderngl.Framebuffer, draw: Draw, boxes: Iterable[Box]) -> None:
         into.use()
         self._ctx.enable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "1"  # always
-        if picked is None:
-            draw.draw()
-        else:
-            draw.draw_boxes(bands_of(picked, into.size, HALF_STEP, _BAND))
+        draw.draw_boxes(boxes)
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
@@ -254,6 +267,7 @@ class HalfGrid:
             without_things=self._ctx.framebuffer(rays.textures[:1], depth),
             depth=depth,
             marks=self._ctx.framebuffer([], depth),
+            ends=Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", moderngl.LINEAR)]) if count > 1 else None,
             cells=Target.of(self._ctx, [plain_texture(self._ctx, cells, 1, "f1")]),
             classes=classes,
             sorted=self._ctx.framebuffer([], classes),
@@ -275,6 +289,16 @@ def narrow_balls(inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], bodie
 def _parted(cells: np.ndarray) -> np.ndarray:
     """The same values of the smaller cells that each of the coarse grid's `cells` (rows, columns) is made of."""
     return cells.repeat(_ALONG, axis=0).repeat(_ALONG, axis=1)
+
+
+def _nodes_about(cells: Bool[np.ndarray, "rows columns"], size: tuple[int, int]) -> Iterator[Box]:
+    """Parts of the texture of rays, of that `size`, that hold all those in and about the coarse grid's `cells`."""
+    rows, columns = cells.shape
+    whole = _ALONG * columns, _ALONG * rows
+    for x, y, width, height in bands_of(_about(cells) > 0, whole, _ALONG, _BAND // _ALONG):
+        left, low = (place + HALF_MARGIN if place else 0 for place in (x, y))
+        right, high = (end + HALF_MARGIN if end < most else full for end, most, full in ((x + width, whole[0], size[0]), (y + height, whole[1], size[1])))
+        yield left, low, right - left, high - low
 
 
 def _about(cells: Bool[np.ndarray, "rows columns"]) -> Int[np.ndarray, "rows columns"]:

@@ -12,7 +12,7 @@ import moderngl
 import numpy as np
 
 from ..planning import HALF_STEP
-from ..shapes import Bool, Float
+from ..shapes import Bool, Float, Int
 from .draw import Draw
 from .ray_blocks import RayBlocks, shifts_texture
 from .squares import TOGETHER
@@ -38,7 +38,7 @@ class PackedRays:
         self._rays: Target | None = None
         self._shifts: moderngl.Texture | None = None
         self._rows = 0  # in use
-        self._order = in_squares(cells)
+        self._order = _in_squares(cells)
 
     def choose(self, cells: Bool[np.ndarray, "rows columns"], first_is_known: Bool[np.ndarray, "rows columns"]) -> int:
         """Packs the rays of `cells`; of those whose `first_is_known` all but that of their first pixel. Returns how many rays there are."""
@@ -112,8 +112,8 @@ def _texels(rows: int) -> Float[np.ndarray, "rows columns 2"]:
     return np.stack(np.meshgrid(np.arange(_WIDTH), np.arange(rows)), axis=-1).astype(np.float32)
 
 
-def in_squares(size: tuple[int, int]) -> Int[np.ndarray, " cells"]:
-    """The places of so many cells, row by row, in an order in which near ones follow each other: those of each quarter of a square, and of each quarter of that."""
+def _in_squares(size: tuple[int, int]) -> Int[np.ndarray, " cells"]:
+    """The places of so many cells, row by row, in an order in which near ones follow each other: quarter by quarter of each square of them."""
     columns, rows = np.meshgrid(np.arange(size[0]), np.arange(size[1]))
     key = np.zeros(columns.shape, int)
     for bit in range(max(size).bit_length()):

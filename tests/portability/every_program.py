@@ -171,7 +171,7 @@ def _of_instances() -> Iterator[Wanted]:
                 if slot == "thing" and catalogue.plug_ins(slot)[kind].traits.tells_apart and not made.model.traits.field and made.reach_steps:
                     yield "reach_nodes.frag", f"{kind} by {model}", made, PARTS
                 if made.meetings == 1:
-                    plain = ("marks", "things", "bends", "fill", "half_marks", "half_put")
+                    plain = ("marks", "things", "bends", "fill", "half_marks", "half_ends", "half_put")
                     filled = *((f"refine_{name}.frag", {}) for name in plain), ("refine_cells.frag", FILLED)
                     halves = ((f"refine_half_{name}.frag", {"MEETINGS": seeking}) for name in ("cells", "fill") for seeking in (0, 1))
                     yield from ((path, f"{kind} by {model}", made, switches) for path, switches in (*filled, *halves))
