@@ -375,6 +375,13 @@ float march_end(Orbit orbit, March m) {
     return m.fate == ESCAPED ? ray_end(orbit, m.s, m.next, m.h) : 2.0;
 }
 
+// Whether the first thing that is found ends the ray, and nothing else is looked for: then what is done with it stands outside of all loops.
+#if MEETINGS == 1 && ORDERS == 0
+#define MEETS_ONCE 1
+#else
+#define MEETS_ONCE 0
+#endif
+
 Hits trace_ray(RayStart start) {
     Orbit orbit = ray_orbit(start);
     Hits hits = no_hits(start.lambda);
@@ -387,6 +394,8 @@ Hits trace_ray(RayStart start) {
     // From step to step in which something may be met, and between them from crossing to crossing: what is dear to look at stands outside of the loop over these.
     bool met = hits.fate == MET;
     float end;
+    Way way;
+    Found found = NOTHING_FOUND;
     do {
         bool between;
 #if MARCH_REPEATS
@@ -407,11 +416,18 @@ Hits trace_ray(RayStart start) {
             if (!between) break;
         }
 #endif
-        Way way = way_of(orbit, m);
-        Found found = NOTHING_FOUND;
+        way = way_of(orbit, m);
+        found = NOTHING_FOUND;
         if (m.near) found = next_meeting(way, 0.0, min(end, 1.0), m.first);
+#if MEETS_ONCE
+        met = met || found.kind != MEETING_NONE;
+#else
         if (m.near && !met) met = meet_in_step(orbit, m, way, end, found, hits);
+#endif
     } while (!met && m.fate == UNRESOLVED && m.steps < plan_max_steps);
+#if MEETS_ONCE
+    if (hits.fate != MET && found.kind != MEETING_NONE) add_meeting_found(orbit, m.s, way, found, hits);
+#endif
     if (met) m.fate = MET;
 #else
     march_on(orbit, ORDERS > 0, m);
