@@ -9,7 +9,9 @@ from itertools import count
 from typing import Any
 
 import moderngl
+import numpy as np
 
+from ..shapes import Float
 from .boxes import Box
 from .inputs import FrameInputs, UniformBuffers
 from .squares import Patches, SquareBuffer, Squares
@@ -114,10 +116,18 @@ class Draw:
             triangle.render(moderngl.TRIANGLES, vertices=3)
         triangle.ctx.scissor = None
 
-    def draw_squares(self, squares: Squares | Patches) -> None:
+    def draw_squares(self, squares: Squares) -> None:
         """Draws `squares` of the bound target alone."""
+        self._draw_points(squares.points)
+
+    def draw_patches(self, patches: Patches) -> None:
+        """Draws `patches` of the bound target alone."""
+        self._draw_points(patches.points)
+        self.draw_boxes(patches.boxes)
+
+    def _draw_points(self, points: Float[np.ndarray, "squares 3"]) -> None:
         self._bind()
-        self._squares.draw(self.compiled.squares, squares)
+        self._squares.draw(self.compiled.squares, points)
 
     def draw_mesh(self, columns: int, rows: int) -> None:
         """Draws a mesh, by a program whose vertex shader places the two triangles of each of its quads."""

@@ -10,8 +10,9 @@ import moderngl
 import numpy as np
 
 from ..glsl.declared import EdgeMark, Fate
+from ..planning import REFINE_STEP
 from .boxes import NOWHERE, Box, grown, inside, joined
-from .classes import drawn, own_rays
+from .classes import OPEN_THINGS, THINGS, drawn, own_rays
 from .hit_map import AS_SHARP, HitMap
 from .inputs import FrameInputs
 from .programs import Programs
@@ -53,7 +54,11 @@ class EdgePixels:
         """Brings what `find` asks of a map that is not sharp to the host, so that there is no more to wait for. Waits for the GPU."""
         if hit_map.classes is not None:
             target, box = self._marks_of_own_rays(inputs, hit_map, hit_map.classes)
-            self._looked = _Looked(hit_map.generation, _marks_in(target, box), box)
+            marks = _marks_in(target, box)
+            self._looked = _Looked(hit_map.generation, marks, box)
+            if inputs.plan.meetings:
+                met, escaped = shown_in_cells(marks)
+                hit_map.see(box, {OPEN_THINGS: escaped} if inputs.plan.orders else {OPEN_THINGS: escaped, THINGS: met})  # a disk needs what things do
 
     def find(self, inputs: FrameInputs, hit_map: HitMap, *, outlines: bool = True, within: Box | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Column and row, from the bottom left, of each pixel at an edge of `hit_map`, int (N, 2), and whether one within or beside it shows a thing or a
@@ -148,6 +153,17 @@ def at_edges(marks: np.ndarray, *, corners: bool = False) -> np.ndarray:
     found[second[changed & np.where(there & _VEILED, through_veil, _SEEN) != 0]] = True
     rows, columns = np.divmod(np.flatnonzero(found), width)
     return np.stack([columns - 1, rows - 1], axis=-1)
+
+
+def shown_in_cells(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of each cell of the coarse grid in `marks` (height, width), which begin with one: whether a ray of any of its pixels meets a thing or a medium, and
+    whether one escapes, each bool (rows, columns). Cells without rays meet some."""
+    height, width = marks.shape
+    flags = marks & np.uint16(EdgeMark.MET << 8) | marks & ~(marks >> 1) & np.uint16(Fate.ESCAPED)
+    flags = np.pad(flags, ((0, -height % REFINE_STEP), (0, -width % REFINE_STEP)))
+    rows = reduce(np.bitwise_or, (flags[k::REFINE_STEP] for k in range(REFINE_STEP)))
+    cells = reduce(np.bitwise_or, (rows[:, k::REFINE_STEP] for k in range(REFINE_STEP)))
+    return cells > np.uint16(Fate.ESCAPED), cells & np.uint16(Fate.ESCAPED) > 0
 
 
 def beside_things(marks: np.ndarray, pixels: np.ndarray) -> np.ndarray:

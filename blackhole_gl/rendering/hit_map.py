@@ -15,6 +15,7 @@ import numpy as np
 
 from ..physics.observer import cos_sin_deg
 from ..planning import REACH_STEP, REFINE_STEP, Plan
+from ..shapes import Bool
 from . import half_grid, hit_texels, reach, refinement
 from .boxes import Box
 from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where
@@ -249,9 +250,14 @@ class HitMap:
         """Parts of a map that is not sharp which hold all of its pixels that are `where`."""
         return self._grid.bands(where)
 
-    def patches(self, where: Where) -> Patches | None:
-        """The same as squares, for draws that may cover a pixel twice; None where those are not known."""
-        return self._grid.patches(where)
+    def pieces(self, where: Where) -> Sequence[Box] | Patches:
+        """The same, less what `see` has told to need nothing there; no pixel lies in two pieces."""
+        return self._grid.pieces(where)
+
+    def see(self, box: Box, seen: Mapping[Where, Bool[np.ndarray, "rows columns"]]) -> None:
+        """Takes what the rays of a map that is not sharp have told of its cells in a `box`: in which of those that are `where` anything needs what is drawn
+        there, until the next `trace`."""
+        self._grid.see(box, seen)
 
     def samplers(self) -> dict[str, moderngl.Texture]:
         """The textures that common/hit_map_read.glsl reads, by name."""

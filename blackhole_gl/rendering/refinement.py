@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import moderngl
@@ -11,8 +11,9 @@ import numpy as np
 
 from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
+from ..shapes import Bool
 from .boxes import Box, bands_of
-from .classes import OPEN_THINGS, OWN_RAYS, Where, drawn
+from .classes import FLAT_SKY, OPEN_THINGS, OWN_RAYS, THINGS, Where, drawn
 from .draw import Draw
 from .hit_texels import textures
 from .inputs import FrameInputs
@@ -29,8 +30,12 @@ _BEYOND_DISK = 1.25
 # Rows of cells whose pixels with rays of their own are drawn at a time: as high as the tiles of llvmpipe.
 _BAND = 64 // REFINE_STEP
 
-# Sides in pixels of the squares that hold pixels of one kind: smaller ones take longer to be placed than what lies beside those pixels takes to be drawn.
-_PATCHES = 2 * REFINE_STEP, 8 * REFINE_STEP
+# Sides in pixels of the squares in which pixels of one kind are drawn: of things, which lie beyond flat sky, the depth test spares none of that, and of things'
+# cells it does not know which show any; else it knows all.
+_PATCHES = {FLAT_SKY: (2 * REFINE_STEP, 8 * REFINE_STEP), THINGS: (REFINE_STEP, 8 * REFINE_STEP), OPEN_THINGS: (REFINE_STEP, 8 * REFINE_STEP)}
+
+# Share of the cells of a kind that need what is drawn in them up to which they are drawn in squares, which themselves take a twentieth more.
+_WORTH_SQUARES = 0.85
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
 _NODES = (("coarse0", "f4"), ("bend0", "f2"), ("coarse1", "f4"), ("bend1", "f2"), ("bend2", "f2"))
@@ -72,6 +77,8 @@ class CoarseGrid:
         self._kept: _Made | None = None
         self._own: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
         self._bands: dict[Where, Sequence[Box]] = {}  # that were asked for
+        self._pieces: dict[Where, Sequence[Box] | Patches] = {}  # the same
+        self._seen: dict[Where, np.ndarray] = {}
         self._cells: np.ndarray | None = None  # depth by what the pixels of each cell need; None once it is not the same for all of a cell's
 
     @property
@@ -113,7 +120,7 @@ class CoarseGrid:
         self._make_nodes(inputs, made)
         self._judge_cells(inputs, made, reached, solid)
         classes = made.cells.textures[1]
-        self._bands = {}
+        self._bands, self._pieces, self._seen = {}, {}, {}
         self._cells = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(classes.height, classes.width) * np.float32(1.0 / 255.0)
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
@@ -160,11 +167,31 @@ class CoarseGrid:
             self._bands[where] = list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
         return self._bands[where]
 
-    def patches(self, where: Where) -> Patches | None:
-        """The same as squares, which leave out what lies between; None once `give_own_rays` or `give_things` has changed some, and of pictures narrower
-        than one."""
-        size = self.classes.size
-        return None if self._cells is None or min(size) < _PATCHES[0] else Patches.picked(where.holds(self._cells), REFINE_STEP, _PATCHES, size)
+    def pieces(self, where: Where) -> Sequence[Box] | Patches:
+        """The same, as squares where boxes hold much that needs nothing, as `see` has told or as it is of another kind; no pixel lies in two pieces."""
+        if self._cells is None or where not in _PATCHES:
+            return self.bands(where)
+        if where not in self._pieces:
+            self._pieces[where] = self._picked(where, where.holds(self._cells))
+        return self._pieces[where]
+
+    def _picked(self, where: Where, held: np.ndarray) -> Sequence[Box] | Patches:
+        if where in self._seen:
+            asked, held = held, held & self._seen[where]
+            if np.count_nonzero(held) > _WORTH_SQUARES * np.count_nonzero(asked):
+                return self.bands(where)
+        return Patches.picked(held, REFINE_STEP, _PATCHES[where], self.classes.size)
+
+    def see(self, box: Box, seen: Mapping[Where, Bool[np.ndarray, "rows columns"]]) -> None:
+        """Takes what rays have told of the cells in a `box` of the picture: in which of those `where` the class says so anything needs what is drawn there."""
+        if self._cells is None:
+            return
+        self._pieces = {}
+        x, y, _, _ = (side // REFINE_STEP for side in box)
+        for where, needed in seen.items():
+            rows, columns = needed.shape
+            self._seen[where] = np.ones(self._cells.shape, bool)
+            self._seen[where][y : y + rows, x : x + columns] = needed
 
     def filled_bands(self) -> Sequence[Box]:
         """Parts of the picture of the last `trace` that hold all cells which one thing fills."""

@@ -132,7 +132,7 @@ class ShadePass:
         """
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, switches)
-        self._draw_classes(matter, where, self._boxes_of(hit_map, where))
+        self._draw_classes(matter, where, self._pieces_of(hit_map, where))
 
     def _draw_media(self, inputs: FrameInputs, hit_map: HitMap, shown: Sequence[Box] | None) -> None:
         """The media where no disk is seen, before all else: in what is `shown` of them alone, where that is known."""
@@ -201,16 +201,14 @@ class ShadePass:
         where_flat = hit_map.switches_where_flat()
         in_parts = inputs.plan.meetings > 0  # without things it is nearly everywhere
         if where_flat is not None:
-            # Of things, which lie beyond it, the depth test spares none.
-            patches = hit_map.patches(FLAT_SKY) if in_parts else None
-            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, squares=patches)
+            self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, self._pieces_of(hit_map, FLAT_SKY) if in_parts else None)
         sky = self._prepared_sky(inputs, hit_map, hit_map.switches())
         if squares is not None:
             self._draw_classes(sky, EVERYWHERE, squares=squares)
             return
-        self._draw_classes(sky, SKY, self._boxes_of(hit_map, SKY) if in_parts else None)
+        self._draw_classes(sky, SKY, self._pieces_of(hit_map, SKY) if in_parts else None)
         if in_parts:
-            self._draw_classes(self._prepared_sky(inputs, hit_map, AS_SHARP), OPEN_THINGS, self._boxes_of(hit_map, OPEN_THINGS))
+            self._draw_classes(self._prepared_sky(inputs, hit_map, AS_SHARP), OPEN_THINGS, self._pieces_of(hit_map, OPEN_THINGS))
 
     def _clear(self, frame: moderngl.Framebuffer) -> None:
         frame.use()
@@ -252,20 +250,24 @@ class ShadePass:
             found |= self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene)
         return {**found, **self._stretches, "temperature_profile": self._temperatures.of(inputs.plan)}
 
-    def _boxes_of(self, hit_map: HitMap, where: Where) -> Sequence[Box] | None:
+    def _pieces_of(self, hit_map: HitMap, where: Where) -> Sequence[Box] | Patches | None:
         """Parts of the picture that hold all pixels that are `where`; None where that is not known."""
         if not hit_map.is_sharp:
-            return hit_map.bands(where)
+            return hit_map.pieces(where)
         return [self._boxes[where]] if where in self._boxes else None
 
-    def _draw_classes(self, prepared: Draw, where: Where, boxes: Sequence[Box] | None = None, squares: Squares | Patches | None = None) -> None:
-        """Draws `where` the pixel's class says, inside `boxes` or in `squares` alone, if such are given."""
+    def _draw_classes(
+        self, prepared: Draw, where: Where, pieces: Sequence[Box] | Patches | None = None, squares: Squares | None = None
+    ) -> None:
+        """Draws `where` the pixel's class says, inside `pieces` or in `squares` alone, if such are given."""
         self._ctx.depth_func = where.comparison
         prepared.set(triangle_depth=2.0 * where.depth - 1.0)
         if squares is not None:
             prepared.draw_squares(squares)
-        elif boxes is not None:
-            prepared.draw_boxes(boxes)
+        elif isinstance(pieces, Patches):
+            prepared.draw_patches(pieces)
+        elif pieces is not None:
+            prepared.draw_boxes(pieces)
         else:
             prepared.draw()
 

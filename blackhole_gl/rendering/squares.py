@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
 
 import moderngl
 import numpy as np
 
 from ..shapes import Bool, Float, Int
-from .boxes import Box, boxes_of
+from .boxes import Box, box_of, boxes_of
 
 TOGETHER = 4
 """Pixels along each axis that software renderers shade together, whichever of them are asked for."""
@@ -82,34 +83,51 @@ class Squares:
 
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """Squares of two sizes.
+    """Squares of two sizes, and boxes where the picture's upper and right edges would cut some. No pixel lies in two of them.
 
     Attributes:
-        points: as shaders/fullscreen.vert takes them, float32 (N, 3).
+        points: the squares as shaders/fullscreen.vert takes them, float32 (N, 3).
     """
 
     points: Float[np.ndarray, "squares 3"]
+    boxes: tuple[Box, ...]
 
     @classmethod
     def picked(cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, int], size: tuple[int, int]) -> Patches:
         """Those of a picture of `size` that hold all of its `cells`, of `cell` pixels each way, that are picked: squares of the smaller of two `sides` which
         hold any, and one of the larger, which is a multiple of it, in the place of those that it is full of."""
         small, large = (side // cell for side in sides)
-        rows, columns = cells.shape
-        left = np.pad(cells, ((0, -rows % large), (0, -columns % large)))
-        full = np.logical_and.reduce(_blocks(left, large), axis=(1, 3))
+        columns, rows = (side // sides[0] * small for side in size)
+        left = np.zeros((rows + -rows % large, columns + -columns % large), bool)
+        left[:rows, :columns] = cells[:rows, :columns]
+        full = _of_blocks(np.logical_and, left, large)
         left &= ~full.repeat(large, axis=0).repeat(large, axis=1)
-        some = np.logical_or.reduce(_blocks(left, small), axis=(1, 3))
-        return cls(np.concatenate([Squares.picked(some, sides[0], size).points, Squares.picked(full, sides[1], size).points]))
-
-    def __len__(self) -> int:
-        return len(self.points)
+        points = np.concatenate([_points(_of_blocks(np.logical_or, left, small), sides[0], size), _points(full, sides[1], size)])
+        return cls(points, tuple(_cut(cells, rows, columns, cell, size)))
 
 
-def _blocks(cells: np.ndarray, side: int) -> np.ndarray:
-    """The view (rows, side, columns, side) of `cells`, whose sides are multiples of `side`."""
-    rows, columns = cells.shape
-    return cells.reshape(rows // side, side, columns // side, side)
+def _cut(cells: Bool[np.ndarray, "rows columns"], rows: int, columns: int, cell: int, size: tuple[int, int]) -> Iterator[Box]:
+    """What holds the cells that are picked beyond the first `rows` and `columns`."""
+    for first, part in ((columns, cells[:, columns:]), (0, cells[:, :columns] & (np.arange(len(cells)) >= rows)[:, None])):
+        if part.any():
+            x, y, width, height = box_of(part, (size[0] - first * cell, size[1]), cell)
+            yield first * cell + x, y, width, height
+
+
+def _of_blocks(of_two: np.ufunc, cells: Bool[np.ndarray, "rows columns"], side: int) -> np.ndarray:
+    """What `of_two` makes of each block of `side`² cells; row by row and column by column, which is the quicker way over short sides."""
+    rows = reduce(of_two, (cells[k::side] for k in range(side)))
+    return reduce(of_two, (rows[:, k::side] for k in range(side)))
+
+
+def _points(held: np.ndarray, side: int, size: tuple[int, int]) -> Float[np.ndarray, "squares 3"]:
+    """The squares of `side` pixels that are `held`, none of which an edge of the picture cuts, as shaders/fullscreen.vert takes them."""
+    row, column = np.divmod(np.flatnonzero(held), held.shape[1])
+    points = np.empty((len(row), 3), np.float32)
+    points[:, 0] = (2 * column + 1) * (side / size[0]) - 1.0
+    points[:, 1] = (2 * row + 1) * (side / size[1]) - 1.0
+    points[:, 2] = side
+    return points
 
 
 class SquareBuffer:
@@ -129,16 +147,16 @@ class SquareBuffer:
         """What `draw` draws `program` with; of a program that takes no squares, nothing that can be."""
         return self._ctx.vertex_array(program, [(self._buffer, "3f", "square")] if "square" in program else [])
 
-    def draw(self, array: moderngl.VertexArray, squares: Squares | Patches) -> None:
-        """Draws `squares` of the bound target; none where there are none."""
-        if not len(squares):
+    def draw(self, array: moderngl.VertexArray, points: Float[np.ndarray, "squares 3"]) -> None:
+        """Draws the squares at `points` of the bound target; none where there are none."""
+        if not len(points):
             return
-        data = squares.points.tobytes()
+        data = points.tobytes()
         if len(data) > self._buffer.size:
             self._buffer.orphan(2 * len(data))
         self._buffer.write(data)
         self._ctx.enable(moderngl.PROGRAM_POINT_SIZE)
-        array.render(moderngl.POINTS, vertices=len(squares))
+        array.render(moderngl.POINTS, vertices=len(points))
         self._ctx.disable(moderngl.PROGRAM_POINT_SIZE)
 
     def release(self) -> None:

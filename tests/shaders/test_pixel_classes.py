@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from blackhole_gl.rendering.frame import Renderer
+from blackhole_gl.rendering.refinement import CoarseGrid
+from blackhole_gl.rendering.squares import Patches
 from blackhole_gl.scene import presets
 
 SIZE = (240, 135)
@@ -59,3 +61,36 @@ def test_what_is_drawn_within_the_disks_bounds_is_the_whole_disk(renderer: Rende
         renderer.render(presets.load(["kerr"], steeper), 30.0, SIZE)
     moved = renderer.radiance()
     np.testing.assert_array_equal(moved, _radiance(renderer, steeper))
+
+
+@pytest.mark.parametrize(
+    "scene, values",
+    [
+        ("knot_behind_a_hole", {}),
+        ("objects_black_hole", {}),
+        ("objects_black_hole", {"disk.enabled": True, "disk.opacity": 0.5}),
+        ("objects_potential", {}),
+        ("cloudy_slab", {}),
+    ],
+)
+@pytest.mark.parametrize("size", [SIZE, (331, 207)])
+def test_squares_leave_out_nothing_that_is_seen(renderer: Renderer, monkeypatch: pytest.MonkeyPatch, scene: str, values: dict, size: tuple[int, int]) -> None:
+    """Of a moving camera's things and of the flat sky about them: the same picture to the bit as in boxes of all that may show any."""
+    pieces, kinds = CoarseGrid.pieces, set()
+
+    def noted(grid: CoarseGrid, where: object) -> object:
+        found = pieces(grid, where)
+        kinds.add(type(found))
+        return found
+
+    def drawn() -> np.ndarray:
+        renderer.hit_map.forget()
+        renderer.render(presets.load([scene], values), 3.0, size, progressive=True)
+        return renderer.radiance()
+
+    monkeypatch.setattr(CoarseGrid, "pieces", noted)
+    drawn()  # a first picture takes rays at every second pixel wherever it may, to have their programs compiled
+    in_squares = drawn()
+    assert Patches in kinds or scene == "cloudy_slab"
+    monkeypatch.setattr(CoarseGrid, "pieces", CoarseGrid.bands)
+    np.testing.assert_array_equal(in_squares, drawn())

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.declared import EdgeMark, Fate
-from blackhole_gl.rendering.edge_pixels import at_edges, at_plain_outlines, beside_things
+from blackhole_gl.rendering.edge_pixels import at_edges, at_plain_outlines, beside_things, shown_in_cells
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF
@@ -105,3 +105,15 @@ def test_where_nothing_has_rays_there_are_no_edges(shape: tuple[int, int]) -> No
 
 def test_a_picture_of_one_kind_has_no_edges() -> None:
     assert at_edges(np.full((9, 16), SKY, np.uint16)).shape == (0, 2)
+
+
+@pytest.mark.parametrize("size", [(8, 12), (7, 10), (1, 1), (0, 0)])
+def test_cells_are_told_by_what_any_of_their_pixels_shows(size: tuple[int, int]) -> None:
+    kinds = SKY, SHADOW, SKY | EdgeMark.RING_1 | 3 << 8, SHADOW | 1 << 15, int(Fate.MET) | 5 << 8, NO_RAY
+    marks = np.random.default_rng(3).choice(np.array(kinds, np.uint16), size, p=[0.1, 0.7, 0.05, 0.1, 0.03, 0.02])
+    met, escaped = shown_in_cells(marks)
+    for (row, column), shows in np.ndenumerate(met):
+        cell = marks[4 * row : 4 * row + 4, 4 * column : 4 * column + 4]
+        assert shows == (cell >> 8 & EdgeMark.MET != 0).any()
+        assert escaped[row, column] == (cell & 3 == Fate.ESCAPED).any()
+    assert met.shape == escaped.shape == (-(-size[0] // 4), -(-size[1] // 4))
