@@ -19,7 +19,7 @@
 
 uniform sampler2D chosen;        // refine_half_marks.frag
 uniform sampler2D cell_classes;
-uniform sampler2D half_ends;     // of the rays: where they end and on what (refine_half_ends.frag); without things their hits, as traced
+uniform sampler2D half_ends;     // of the rays, the nearest (docs/llvmpipe.md, texels): where they end and on what (refine_half_ends.frag); without things their hits, as traced
 uniform vec2 refine_tolerance;   // refine_nodes.frag
 uniform float refine_px;
 #if MEETINGS
@@ -38,9 +38,14 @@ bool has_parts(int what) {
     return false;
 }
 
+// Of a texel in the textures of rays.
+vec2 middle_of(ivec2 node) {
+    return (vec2(node) + 0.5) / vec2(textureSize(half_ends, 0));
+}
+
 // What a ray ends on, more than 0, or its fate, negative; 0 of a ray that ends nowhere. And where: a place or a direction.
 int end_of(ivec2 node, out vec3 place) {
-    vec4 end = texelFetch(half_ends, node, 0);
+    vec4 end = textureLod(half_ends, middle_of(node), 0.0);
     place = end.xyz;
 #if MEETINGS
     return int(round(end.w));
@@ -52,7 +57,7 @@ int end_of(ivec2 node, out vec3 place) {
 // The normal of the part that a ray ends on, of what has some.
 vec3 facing_at(ivec2 node) {
 #if MEETINGS
-    vec3 note = texelFetch(half0, node, 0).xyz;
+    vec3 note = textureLod(half0, middle_of(node), 0.0).xyz;
     return note * inversesqrt(max(dot(note, note), 1e-20));
 #else
     return vec3(0.0);

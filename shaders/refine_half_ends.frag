@@ -5,12 +5,12 @@
 #include "common/hits.glsl"
 #include "common/hit_texels.glsl"
 
-uniform sampler2D half0, half_met; // hits, as traced
+uniform sampler2D half0, half_met; // hits, as traced; the nearest: docs/llvmpipe.md, texels
 
 out vec4 end_out; // the place in r_s and what is met there, as a hit map has them; or the direction, and less than that its fate
 
 void main() {
-    ivec2 node = ivec2(gl_FragCoord.xy);
-    vec4 escape = texelFetch(half0, node, 0), met = texelFetch(half_met, node, 0);
+    vec2 place = gl_FragCoord.xy / vec2(textureSize(half0, 0));
+    vec4 escape = textureLod(half0, place, 0.0), met = textureLod(half_met, place, 0.0);
     end_out = met.w > 0.0 ? met : vec4(escape.xyz, -float(texel_fate(escape)));
 }

@@ -48,7 +48,7 @@ void main() {
     vec2 place = (0.5 * vec2(pixel) + float(HALF_MARGIN) + 0.5) / vec2(textureSize(half_ends, 0)), between = vec2(pixel & 1);
     int way = way_of_cell(texelFetch(half_cells, pixel / 2, 0).r);
 #if MEETINGS
-    vec4 traced = texelFetch(half0, node, 0);
+    vec4 traced = textureLod(half0, (vec2(node) + 0.5) / vec2(textureSize(half0, 0)), 0.0);
 #else
     vec4 traced = texelFetch(half_ends, node, 0);
 #endif

@@ -161,6 +161,7 @@ class HalfGrid:
             made.ends.frame.use()
             ends.draw_boxes(self._ray_boxes)
         cells = self._programs.get("refine_half_cells.frag", inputs)
+        self._ends.filter = moderngl.NEAREST, moderngl.NEAREST
         cells.sample({"chosen": made.chosen, "cell_classes": cell_classes, **self._hits, **({} if reached is None else {"cell_balls": reached.cell_balls})})
         cells.set(refine_tolerance=tolerances(inputs), refine_px=inputs.plan.refine_px)
         cells.tell(narrow_balls=narrow)
@@ -181,6 +182,7 @@ class HalfGrid:
         """Writes what is interpolated into `textures`, of the picture's size."""
         fill = self._programs.get("refine_half_fill.frag", inputs)
         fill.sample({**self._hits, "half_cells": self._made.cells.texture})
+        self._ends.filter = moderngl.LINEAR, moderngl.LINEAR
         self.trace_own_rays(fill, textures, MATTER)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
@@ -237,8 +239,14 @@ class HalfGrid:
 
     @property
     def _hits(self) -> Mapping[str, moderngl.Texture]:
-        textures, ends = self._made.rays.textures, self._made.ends
-        return {"half0": textures[0], **dict(zip(("half_met", "half_way"), textures[1:])), "half_ends": textures[0] if ends is None else ends.texture}
+        textures = self._made.rays.textures
+        return {"half0": textures[0], **dict(zip(("half_met", "half_way"), textures[1:])), "half_ends": self._ends}
+
+    @property
+    def _ends(self) -> moderngl.Texture:
+        """Where rays end: without things their hits."""
+        ends = self._made.ends
+        return self._made.rays.texture if ends is None else ends.texture
 
     def _write_depth(self, into: moderngl.Framebuffer, draw: Draw, boxes: Iterable[Box]) -> None:
         into.use()
@@ -259,7 +267,9 @@ class HalfGrid:
         cells = -(-size[0] // HALF_STEP), -(-size[1] // HALF_STEP)
         nodes = cells[0] + 3 * HALF_MARGIN, cells[1] + 3 * HALF_MARGIN
         depth, classes = self._ctx.depth_texture(nodes), self._ctx.depth_texture(size)
-        rays = Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", moderngl.LINEAR) for _ in range(count)], depth)
+        # Of those with things the last is filtered, and of what is made of them the ends, as of rays without.
+        filters = [moderngl.NEAREST] * (count - 1) + [moderngl.LINEAR]
+        rays = Target.of(self._ctx, [plain_texture(self._ctx, nodes, 4, "f4", filtered) for filtered in filters], depth)
         return _Made(
             (size, count),
             chosen=plain_texture(self._ctx, coarse, 1, "f1"),

@@ -47,8 +47,10 @@ struct MeshSpot {
     bool enters;
 };
 
+// The nearest texel: docs/llvmpipe.md, texels.
 vec4 mesh_texel(int triangle, int place) {
-    return texelFetch(mesh_triangles, ivec2(MESH_TEXELS * (triangle % MESH_ROW) + place, triangle / MESH_ROW), 0);
+    vec2 texel = vec2(float(MESH_TEXELS * (triangle % MESH_ROW) + place), float(triangle / MESH_ROW)) + 0.5;
+    return textureLod(mesh_triangles, texel / vec2(textureSize(mesh_triangles, 0)), 0.0);
 }
 
 // Neighbours share what decides about their common edge, so that nothing slips through between them.
