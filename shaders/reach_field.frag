@@ -4,6 +4,7 @@
 #defines
 #blocks
 #include "common/constants.glsl"
+#include "common/lowest_bit.glsl"
 #include "common/observer.glsl"
 #include "common/rotation.glsl"
 #include "common/hermite.glsl"

@@ -14,6 +14,7 @@
 #include "common/curve.glsl"
 #include "common/hit_map_write.glsl"
 #if MEETINGS
+#include "common/lowest_bit.glsl"
 #include "common/earlier.glsl"
 #include "common/matter.glsl"
 #instances

@@ -26,12 +26,10 @@ void know_balls(vec2 place, bool is_corner) {
 
 // The first of those `left`, of which there is one, and takes it from them.
 KnownBall next_ball(inout uint left) {
-    uint rest = left & (left - 1u);
-    int number = int(floatBitsToUint(float(left ^ rest)) >> 23) - 127;  // the exponent of a power of two
-    float column = (float(number) + 0.5) / float(textureSize(reach_balls, 0).x);  // the nearest texel: docs/llvmpipe.md, texels
+    float column = (float(lowest_bit(left)) + 0.5) / float(textureSize(reach_balls, 0).x);  // the nearest texel: docs/llvmpipe.md, texels
     vec4 ball = textureLod(reach_balls, vec2(column, 0.25), 0.0);
     int of = int(textureLod(reach_balls, vec2(column, 0.75), 0.0).x + 0.5) - 1;
-    left = rest;
+    left = without_lowest(left);
     return KnownBall(ball.xyz, abs(ball.w), of & 31, of >> 5);
 }
 

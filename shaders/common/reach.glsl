@@ -82,18 +82,40 @@ vec3 slope_against(vec3 velocity, vec3 along) {
     return (velocity - onward * along) / max(onward, 0.2 * length(velocity));
 }
 
+// Ball number i: centre and radius.
+vec4 reach_ball(int i) {
+    return textureLod(reach_balls, vec2((float(i) + 0.5) / float(textureSize(reach_balls, 0).x), 0.25), 0.0);
+}
+
+// The balls that a piece of a way with its middle at `middle` may be near to: all that are no farther from there than `room`.
+uint balls_about(vec3 middle, float room) {
+    uint found = 0u;
+    int i = 0;
+    do {
+        vec4 ball = reach_ball(i);
+        vec3 off = ball.xyz - middle;
+        float within = abs(ball.w) + room;
+        found |= dot(off, off) <= within * within ? 1u << i : 0u;
+    } while (++i < reach_count);
+    return found;
+}
+
 // The balls to which the way from a to b comes as near as the margin, which is `begin` at a and `end` at b, and as near as four rays may that have it between them. It
 // bows from its chord by a cubic, which rates by any parameter tell: where it still comes nearer at the chord's nearest place, by as much more as such a bow can.
+//
+// What is asked of each ball is dear, and few are near. With the slopes s at both ends together the way is no farther from its chord's middle than (1/2 + s/4) of its
+// size, and what counts as near is no farther from the way than 0.15 s of it for what is no cubic, (1 + s)/4 for what comes nearer, and 1.4 of the widest margin.
 Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     vec3 chord = b.x - a.x;
     float size = max(length(chord), 1e-20);
     vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
-    float rough = size * roughness(length(before) + length(after));
+    float slopes = length(before) + length(after), rough = size * roughness(slopes);
     vec2 sides2 = vec2(longest2(begin), longest2(end));
     Reached found = NONE_REACHED;
-    int i = 0;
-    do {
-        vec4 ball = textureLod(reach_balls, vec2((float(i) + 0.5) / float(textureSize(reach_balls, 0).x), 0.25), 0.0);
+    uint left = balls_about(a.x + 0.5 * chord, size * (0.75 + 0.65 * slopes) + 1.4 * max(begin.most, end.most));
+    if (left != 0u) do {
+        int i = lowest_bit(left);
+        vec4 ball = reach_ball(i);
         float radius = abs(ball.w);
         vec3 arm = ball.xyz - a.x;
         float u = clamp(dot(arm, along) / size, 0.0, 1.0);
@@ -111,7 +133,8 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         found.between |= misses - nearer <= between ? 1u << i : 0u;
         found.hidden = far + rough + most < -ball.w ? uint(i + 1) : found.hidden;
         found.holds = far + rough + (radius > most ? reach_not_linear * most : most) < -ball.w ? uint(i + 1) : found.holds;
-    } while (++i < reach_count);
+        left = without_lowest(left);
+    } while (left != 0u);
     return found;
 }
 
