@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -221,15 +221,22 @@ def look_rotation(camera: Camera) -> Float[np.ndarray, "3 3"]:
             if getattr(camera, name):
                 text = f"got {getattr(camera, name):g}; a camera at infinity has parallel rays, so allowed is 0 (camera.roll_deg turns its picture)"
                 raise SceneError(f"camera.{name}", text)
-    (cy, sy), (cp, sp), (cr, sr) = (cos_sin_deg(angle) for angle in (camera.yaw_deg, camera.pitch_deg, camera.roll_deg))
+    return _turned(camera.yaw_deg, camera.pitch_deg, camera.roll_deg, camera.dome_tilt_deg if camera.projection == "dome" else None)
+
+
+@lru_cache(maxsize=16)
+def _turned(yaw_deg: float, pitch_deg: float, roll_deg: float, dome_tilt_deg: float | None) -> Float[np.ndarray, "3 3"]:
+    (cy, sy), (cp, sp), (cr, sr) = map(cos_sin_deg, (yaw_deg, pitch_deg, roll_deg))
     # In (r, θ, φ) = (back, down, right): ahead is −r, up is −θ.
     yaw = np.array([[cy, 0.0, sy], [0.0, 1.0, 0.0], [-sy, 0.0, cy]])  # takes ahead to ahead·cos + right·sin
     pitch = np.array([[cp, -sp, 0.0], [sp, cp, 0.0], [0.0, 0.0, 1.0]])  # takes ahead to ahead·cos + up·sin
     roll = np.array([[1.0, 0.0, 0.0], [0.0, cr, sr], [0.0, -sr, cr]])  # takes right to right·cos + down·sin
-    if camera.projection != "dome":
-        return yaw @ pitch @ roll
-    ct, st = cos_sin_deg(camera.dome_tilt_deg)
-    return yaw @ pitch @ roll @ np.array([[ct, -st, 0.0], [st, ct, 0.0], [0.0, 0.0, 1.0]])
+    turned = yaw @ pitch @ roll
+    if dome_tilt_deg is not None:
+        ct, st = cos_sin_deg(dome_tilt_deg)
+        turned = turned @ np.array([[ct, -st, 0.0], [st, ct, 0.0], [0.0, 0.0, 1.0]])
+    turned.setflags(write=False)
+    return turned
 
 
 def _refuse_inside(camera: Camera, where: SpaceTime) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import count
 from typing import Any
 
 import moderngl
@@ -86,21 +85,25 @@ class Draw:
 
     def sample(self, samplers: Samplers, first: int = 0) -> None:
         """Binds those of `samplers` (name → texture) that the program uses, to texture units from `first` on."""
-        used = [name for name in samplers if name in self.compiled.members]
-        for unit, name in enumerate(used, first):
+        members, held = self.compiled.members, self.compiled.values
+        for unit, name in enumerate(filter(members.__contains__, samplers), first):
             samplers[name].use(unit)
-        self.set(**dict(zip(used, count(first))))
+            if held.get(name) != unit:
+                members[name].value = held[name] = unit
 
     def set(self, **uniforms: object) -> None:
         """Sets loose uniforms by name."""
-        held = self.compiled.values
+        members, held = self.compiled.members, self.compiled.values
         for name, value in uniforms.items():
             if held.get(name) != value:
-                self.compiled.members[name].value = held[name] = value
+                members[name].value = held[name] = value
 
     def tell(self, **uniforms: object) -> None:
         """Sets those of the loose `uniforms` that the program has."""
-        self.set(**{name: value for name, value in uniforms.items() if name in self.compiled.members})
+        members, held = self.compiled.members, self.compiled.values
+        for name, value in uniforms.items():
+            if name in members and held.get(name) != value:
+                members[name].value = held[name] = value
 
     def draw(self) -> None:
         """Draws the triangle that covers the bound target."""

@@ -430,10 +430,10 @@ class Renderer:
 
     def _kept_or_shaded(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> Target:
         """`_shaded_with_edges` of the own hit map, unless that is what the radiance holds."""
-        made = self._light_key(inputs, media, motion)
+        made, compiled = self._light_key(inputs, media, motion), self.programs.compiled
         if self._radiance is None or made is None or made != self._radiance_key:
             self._shaded_with_edges(inputs, media, motion)
-            self._radiance_key = self._light_key(inputs, media, motion)  # programs may have been compiled
+            self._radiance_key = made if self.programs.compiled == compiled else self._light_key(inputs, media, motion)
         return _drawn(self._radiance)
 
     def _light_key(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> tuple | None:

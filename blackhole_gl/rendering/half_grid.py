@@ -313,6 +313,8 @@ def _nodes_about(cells: Bool[np.ndarray, "rows columns"], size: tuple[int, int])
 
 def _about(cells: Bool[np.ndarray, "rows columns"]) -> Int[np.ndarray, "rows columns"]:
     """Of each cell, how many of it and the eight about it are among `cells`."""
-    padded = np.pad(cells, 1).astype(np.uint8)
-    columns = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
-    return columns[:-2] + columns[1:-1] + columns[2:]
+    rows, columns = cells.shape
+    padded = np.zeros((rows + 2, columns + 2), np.uint8)
+    padded[1:-1, 1:-1] = cells
+    across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return across[:-2] + across[1:-1] + across[2:]

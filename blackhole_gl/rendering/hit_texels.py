@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cache
 
 import numpy as np
 
@@ -26,9 +27,11 @@ def textures(orders: int, meetings: int = 0, times: bool = False) -> int:
     return 1 + min(orders, 2) + 2 * meetings + times
 
 
-def names(orders: int, meetings: int, times: bool) -> list[str]:
+@cache
+def names(orders: int, meetings: int, times: bool) -> tuple[str, ...]:
     """What shaders call them, in their order."""
-    return [f"hits{k}" for k in range(textures(orders))] + [name for k in range(meetings) for name in (f"met{k}", f"way{k}")] + ["times"] * times
+    of_meetings = [name for k in range(meetings) for name in (f"met{k}", f"way{k}")]
+    return *(f"hits{k}" for k in range(textures(orders))), *of_meetings, *["times"] * times
 
 
 @dataclass(frozen=True)

@@ -53,6 +53,8 @@ def layers(scene: Scene) -> dict[str, int]:
 
 def _named(scene: Scene) -> tuple[tuple[str, str], ...]:
     """(key, value) of each picture that things and media name, each picture once, in their order."""
+    if met.is_empty(scene):
+        return ()
     found: dict[str, str] = {}
     for slot, section in (("thing", "things"), ("medium", "media")):
         for key, value in _named_in(section, met.named(scene, slot), met.kinds(scene, slot)):

@@ -14,6 +14,7 @@ from ..glsl.declared import defines
 from ..physics import accretion, observer, plunging, projection, shear, tilted_disk
 from ..planning import GRID_MARGIN, HALF_MARGIN, INNERMOST_CROSSING, REFINE_STEP, Plan
 from ..scene import Scene, catalogue, fields, met
+from ..scene.frozen import changed
 from ..scene.schema import Value
 from ..scene.tables import Number
 from . import instances, pictures
@@ -122,7 +123,7 @@ def ray_values(plan: Plan, size: tuple[int, int], offset: tuple[float, float] = 
         ValueError: the camera is inside the horizon, or looks where it cannot.
     """
     scene, where = plan.scene, plan.space_time
-    seen = observer.observe(scene.with_values({"camera.azimuth_deg": plan.azimuth_deg}))
+    seen = observer.observe(changed(scene, camera=changed(scene.camera, azimuth_deg=plan.azimuth_deg)))
     picture_scale = projection.half_height(scene.camera) / projection.filled(scene.camera, size)[1]
     right, up = seen.hole_on_screen if projection.is_perspective(scene.camera) else observer.NOWHERE
     back, down, aside = seen.axes
