@@ -98,7 +98,8 @@ struct Stray {
     vec3 aside;
 };
 
-// That of two places `part` of the curve's parameter apart. Before the twist the way lies between the control points of a rational cubic. A turn by φ moves what
+// That of two places `part` of the curve's parameter apart. Before the twist the way lies between the control points of a rational cubic, of which
+// those at its ends lie on the piece and the other two count for three quarters at most, or more by their larger weights. A turn by φ moves what
 // is ρ from the axis by less than ρφ²/8 more, and uneven steps of either along the piece by as much as they are uneven.
 Stray path_stray(Path a, Path b, float part) {
     vec4 first = a.place + part / 3.0 * a.rate, second = b.place - part / 3.0 * b.rate;
@@ -107,7 +108,8 @@ Stray path_stray(Path a, Path b, float part) {
     vec3 of_p = beside(p, way), of_q = beside(q, way);
     bool is_p = dot(of_p, of_p) > dot(of_q, of_q);
     vec3 aside = 0.5 * (is_p ? of_p : of_q), other = (is_p ? of_q : of_p) - aside;
-    float half_off = length(aside), moved = max(half_off, length(other)), stray = 2.0 * half_off;
+    float inner = 3.0 * max(first.w, second.w), share = inner / (inner + min(a.place.w, b.place.w));
+    float half_off = length(aside), moved = max(half_off, length(other)), stray = 2.0 * share * half_off;
     float turn = abs(b.twist.x - a.twist.x), uneven = max(abs(part * a.twist.y), abs(part * b.twist.y)) - turn;
     float size = length(from) + length(way) + stray;
     float twisted = turn * (0.5 * length(way) + 0.125 * turn * size) + max(uneven, 0.0) / 3.0 * size;
