@@ -35,7 +35,7 @@ _MORE_ORDERS, _LONGEST_IN_MOTION = 1, 1.5
 
 
 def steps_in_motion(plan: Plan, height: int) -> float:
-    """How many times as long steps are under a moving camera, of rays that meet nothing, in a picture `height` pixels high.
+    """How many times as long steps are under a moving camera, of rays at no outline, in a picture `height` pixels high.
 
     A tolerance is in pixels of a picture 1080 high; one that moves and is drawn with fewer has it in its own. The error grows as a power of the step,
     and that of long steps faster than by the scheme's order.

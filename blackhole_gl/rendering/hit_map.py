@@ -307,8 +307,9 @@ class HitMap:
                 self.known = reached
                 rays = self._programs.get("trace.frag", inputs, KNOWN)
             if reached.fills and inputs.plan.meetings == 1:
-                self._bind_tables(rays)
-                solid = self._things.trace(rays, reached)
+                filling = self._programs.get("trace.frag", inputs.in_motion(), KNOWN if self.known is not None else {})
+                self._bind_tables(filling)
+                solid = self._things.trace(filling, reached)
             coarse = self._programs.get("trace.frag", inputs.in_motion(), NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, solid)

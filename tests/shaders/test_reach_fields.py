@@ -40,7 +40,7 @@ def _displacement(exact: HitArrays, found: HitArrays) -> np.ndarray:
     return np.linalg.norm(moved, axis=-1) / np.maximum(xx * yy - xy * xy, 1e-12)
 
 
-@pytest.mark.parametrize("name", ["objects_lorenz", "objects_potential", "fish_eye", "objects_black_hole"])
+@pytest.mark.parametrize("name", ["objects_lorenz", "objects_potential", "objects_refraction", "fish_eye", "objects_black_hole"])
 def test_a_shipped_scene_of_balls_is_interpolated_where_they_are_whole(renderer: Renderer, name: str) -> None:
     scene = presets.load([name], {"rays.edges": 1})
     exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
