@@ -74,17 +74,16 @@ float beyond(vec4 place, float r) {
     return length(place.xyz) - r * place.w;
 }
 
-// The part 0…1 of the curve at which it comes nearer to the hole than r, by false position; 1 where it begins nearer or ends farther away.
+// The rate of `beyond`.
+float beyond_rate(Path path, float r) {
+    return dot(path.place.xyz, path.rate.xyz) / max(length(path.place.xyz), 1e-20) - r * path.rate.w;
+}
+
+// The part 0…1 of the curve at which it comes nearer to the hole than r; 1 where it begins nearer or ends farther away.
 float part_outside(Curve curve, float r) {
-    float low = 0.0, high = 1.0, above = beyond(curve.a.place, r), below = beyond(curve.b.place, r);
+    float above = beyond(curve.a.place, r), below = beyond(curve.b.place, r);
     if (above <= 0.0 || below >= 0.0) return 1.0;
-    float t = 1.0;
-    for (int i = 0; i < 6; ++i) {
-        t = mix(low, high, above / (above - below));
-        float here = beyond(curve_path(curve, t).place, r);
-        if (here > 0.0) { low = t; above = here; below *= 0.7; } else { high = t; below = here; above *= 0.7; }
-    }
-    return t;
+    return hermite_root(above, curve.h * beyond_rate(curve.a, r), below, curve.h * beyond_rate(curve.b, r));
 }
 
 // From the nearest place of the piece from the origin along `way` to x.
@@ -105,11 +104,11 @@ Stray path_stray(Path a, Path b, float part) {
     vec4 first = a.place + part / 3.0 * a.rate, second = b.place - part / 3.0 * b.rate;
     vec3 from = a.place.xyz / a.place.w, way = b.place.xyz / b.place.w - from;
     vec3 p = first.xyz / first.w - from, q = second.xyz / second.w - from;
-    vec3 of_p = beside(p, way), of_q = beside(q, way);
+    float inner = 3.0 * max(first.w, second.w), share = inner / (inner + min(a.place.w, b.place.w));
+    vec3 of_p = share * beside(p, way), of_q = share * beside(q, way);
     bool is_p = dot(of_p, of_p) > dot(of_q, of_q);
     vec3 aside = 0.5 * (is_p ? of_p : of_q), other = (is_p ? of_q : of_p) - aside;
-    float inner = 3.0 * max(first.w, second.w), share = inner / (inner + min(a.place.w, b.place.w));
-    float half_off = length(aside), moved = max(half_off, length(other)), stray = 2.0 * share * half_off;
+    float half_off = length(aside), moved = max(half_off, length(other)), stray = 2.0 * half_off;
     float turn = abs(b.twist.x - a.twist.x), uneven = max(abs(part * a.twist.y), abs(part * b.twist.y)) - turn;
     float size = length(from) + length(way) + stray;
     float twisted = turn * (0.5 * length(way) + 0.125 * turn * size) + max(uneven, 0.0) / 3.0 * size;
