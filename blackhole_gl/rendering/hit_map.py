@@ -302,18 +302,18 @@ class HitMap:
         inputs = rays.inputs
         if inputs.plan.meetings:
             reached = self._reach.draw(inputs, self._met.balls, self._met.numbers, self._met.fills)
-            solid = None
+            filled = None
             if reached.known and inputs.plan.meetings == 1:
                 self.known = reached
                 rays = self._programs.get("trace.frag", inputs, KNOWN)
             if reached.fills and inputs.plan.meetings == 1:
                 filling = self._programs.get("trace.frag", inputs.in_motion(), KNOWN if self.known is not None else {})
                 self._bind_tables(filling)
-                solid = self._things.trace(filling, reached)
+                filled = self._things.trace(filling, reached)
             coarse = self._programs.get("trace.frag", inputs.in_motion(), NO_THINGS)
             self._bind_tables(coarse)
-            self._grid.trace(coarse, reached.cells, solid)
-            if solid is not None:
+            self._grid.trace(coarse, reached.cells, filled)
+            if filled is not None:
                 self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
             self._trace_own_rays(coarse, rays)
         else:

@@ -20,6 +20,7 @@ from .inputs import FrameInputs
 from .programs import Programs
 from .squares import Patches, Squares
 from .target import Target, plain_texture
+from .things_grid import BEYOND_FILLED, Filled
 
 FILLED = {"CELLS_FILLED": 1}
 """The switch of the program that knows of cells which one thing fills."""
@@ -76,6 +77,7 @@ class CoarseGrid:
         self._ctx, self._programs = ctx, programs
         self._kept: _Made | None = None
         self._own: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
+        self._marked: moderngl.Framebuffer | None = None
         self._bands: dict[Where, Sequence[Box]] = {}  # that were asked for
         self._pieces: dict[Where, Sequence[Box] | Patches] = {}  # the same
         self._seen: dict[Where, np.ndarray] = {}
@@ -103,22 +105,25 @@ class CoarseGrid:
         """Depth of the picture's size by what each pixel of the last `trace` needs, as shaders/refine_classes.frag writes it."""
         return self._made.classes
 
-    def trace(self, rays: Draw, reached: moderngl.Texture | None, solid: moderngl.Texture | None = None) -> None:
+    def trace(self, rays: Draw, reached: moderngl.Texture | None, filled: Filled | None = None) -> None:
         """Traces the grid for the picture of the trace pass `rays`, judges its cells and sorts the pixels into `classes`.
 
         Args:
             rays: end on nothing but the hole.
             reached: what each cell may show, as shaders/reach_cells.frag leaves it; None in a scene without things.
-            solid: 1 for each cell that one thing fills, which is written for its pixels; None where none is.
+            filled: cells that one thing fills, which is written for their pixels; None where none is. Rays among these alone tell nothing, and are left out.
         """
         inputs = rays.inputs
         made = self._targets(inputs.size, textures(inputs.plan.orders))
         first = -GRID_MARGIN * REFINE_STEP
         rays.set(ray_grid=(REFINE_STEP, first, first))
-        made.rays.frame.use()
-        rays.draw()
+        if filled is None:
+            made.rays.frame.use()
+            rays.draw()
+        else:
+            self._trace_marked(rays, made, filled)
         self._make_nodes(inputs, made)
-        self._judge_cells(inputs, made, reached, solid)
+        self._judge_cells(inputs, made, reached, filled)
         classes = made.cells.textures[1]
         self._bands, self._pieces, self._seen = {}, {}, {}
         self._cells = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(classes.height, classes.width) * np.float32(1.0 / 255.0)
@@ -228,11 +233,23 @@ class CoarseGrid:
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for own in self._own.values():
+        for own in (*self._own.values(), *([] if self._marked is None else [self._marked])):
             own.release()
         if self._kept is not None:
             self._kept.release()
-        self._own, self._kept = {}, None
+        self._own, self._marked, self._kept = {}, None, None
+
+    def _trace_marked(self, rays: Draw, made: _Made, filled: Filled) -> None:
+        """Traces the rays that tell of cells which may show no thing."""
+        marked = self._marked
+        if marked is None or marked.color_attachments != made.rays.textures or marked.depth_attachment is not filled.marked:
+            if marked is not None:
+                marked.release()
+            marked = self._marked = self._ctx.framebuffer(made.rays.textures, filled.marked)
+        marked.use()
+        marked.depth_mask = False
+        with drawn(self._ctx, rays, BEYOND_FILLED):
+            rays.draw()
 
     def _make_nodes(self, inputs: FrameInputs, made: _Made) -> None:
         nodes = self._programs.get("refine_nodes.frag", inputs)
@@ -243,9 +260,9 @@ class CoarseGrid:
         made.nodes.frame.use()
         nodes.draw()
 
-    def _judge_cells(self, inputs: FrameInputs, made: _Made, reached: moderngl.Texture | None, solid: moderngl.Texture | None) -> None:
-        cells = self._programs.get("refine_cells.frag", inputs, {} if solid is None else FILLED)
-        told = {"reached": reached, "solid": solid}
+    def _judge_cells(self, inputs: FrameInputs, made: _Made, reached: moderngl.Texture | None, filled: Filled | None) -> None:
+        cells = self._programs.get("refine_cells.frag", inputs, {} if filled is None else FILLED)
+        told = {"reached": reached, "solid": None if filled is None else filled.solid}
         cells.sample({"kinds": made.nodes.texture, **{name: texture for name, texture in told.items() if texture is not None}})
         made.cells.frame.use()
         cells.draw()

@@ -23,6 +23,22 @@ from .target import Target, plain_texture
 
 _MARKED = Where(">", 0.5)  # by shaders/refine_marks.frag
 
+BEYOND_FILLED = Where("<", 0.125)
+"""The nodes, by the same, whose rays tell of cells that may show no thing."""
+
+
+@dataclass(frozen=True, eq=False)
+class Filled:
+    """Which cells of a picture one thing fills.
+
+    Attributes:
+        solid: R8, 1 for the lower left node of each.
+        marked: depth of the nodes, as shaders/refine_marks.frag writes it.
+    """
+
+    solid: moderngl.Texture
+    marked: moderngl.Texture
+
 
 @dataclass(frozen=True, eq=False)
 class _Made:
@@ -56,9 +72,8 @@ class ThingsGrid:
         self._made: _Made | None = None
         self._filled: moderngl.Framebuffer | None = None
 
-    def trace(self, rays: Draw, reached: Reached) -> moderngl.Texture:
-        """R8, 1 for the lower left node of each cell that one thing fills, of the picture of the trace pass `rays`, which meets things; `reached` says what
-        cells may show."""
+    def trace(self, rays: Draw, reached: Reached) -> Filled:
+        """Of the picture of the trace pass `rays`, which meets things; `reached` says what cells may show."""
         inputs = rays.inputs
         made = self._targets(inputs.size, hit_texels.textures(inputs.plan.orders, inputs.plan.meetings, inputs.plan.times))
         first = -GRID_MARGIN * REFINE_STEP
@@ -73,7 +88,7 @@ class ThingsGrid:
         bends = self._programs.get("refine_bends.frag", inputs)
         bends.sample({"things_met": self._met})
         self._draw_marked(bends, made.bends)
-        return made.solid.texture
+        return Filled(made.solid.texture, made.depth)
 
     def _mark(self, inputs: FrameInputs, made: _Made, reached: Reached) -> None:
         marks = self._programs.get("refine_marks.frag", inputs)
