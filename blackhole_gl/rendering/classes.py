@@ -28,8 +28,13 @@ class Where:
 
     def holds(self, depths: np.ndarray) -> np.ndarray:
         """Which pixels need it, by what the depth buffer holds of them; bool, of the same shape."""
+        passed = self.passed_by(depths)
+        return passed & (depths < self.needed) if self.comparison == "<" else passed
+
+    def passed_by(self, depths: np.ndarray) -> np.ndarray:
+        """Which the depth test lets pass, be they needed or not."""
         if self.comparison == "<":
-            return (depths > self.depth) & (depths < self.needed)
+            return depths > self.depth
         return depths < self.depth if self.comparison == ">" else np.ones(depths.shape, bool)
 
 

@@ -35,7 +35,7 @@ _BAND = 64 // REFINE_STEP
 # cells it does not know which show any; else it knows all.
 _PATCHES = {FLAT_SKY: (2 * REFINE_STEP, 8 * REFINE_STEP), THINGS: (REFINE_STEP, 8 * REFINE_STEP), OPEN_THINGS: (REFINE_STEP, 8 * REFINE_STEP)}
 
-# Share of the cells of a kind that need what is drawn in them up to which they are drawn in squares, which themselves take a twentieth more.
+# Share of the cells let pass by the depth test that need what is drawn in them up to which they are drawn in squares, which themselves take a twentieth more.
 _WORTH_SQUARES = 0.85
 
 # Textures of the nodes, and how many of them there are by the number of targets of the trace pass.
@@ -177,14 +177,15 @@ class CoarseGrid:
         if self._cells is None or where not in _PATCHES:
             return self.bands(where)
         if where not in self._pieces:
-            self._pieces[where] = self._picked(where, where.holds(self._cells))
+            self._pieces[where] = self._picked(where, self._cells)
         return self._pieces[where]
 
-    def _picked(self, where: Where, held: np.ndarray) -> Sequence[Box] | Patches:
+    def _picked(self, where: Where, cells: np.ndarray) -> Sequence[Box] | Patches:
+        held = where.holds(cells)
         if where in self._seen:
-            asked, held = held, held & self._seen[where]
-            if np.count_nonzero(held) > _WORTH_SQUARES * np.count_nonzero(asked):
-                return self.bands(where)
+            held &= self._seen[where]
+        if np.count_nonzero(held) > _WORTH_SQUARES * np.count_nonzero(where.passed_by(cells)):
+            return self.bands(where)
         return Patches.picked(held, REFINE_STEP, _PATCHES[where], self.classes.size)
 
     def see(self, box: Box, seen: Mapping[Where, Bool[np.ndarray, "rows columns"]]) -> None:
