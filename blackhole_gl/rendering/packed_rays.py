@@ -13,6 +13,7 @@ import numpy as np
 
 from ..planning import HALF_STEP
 from ..shapes import Bool, Float, Int
+from .boxes import Box
 from .draw import Draw
 from .ray_blocks import RayBlocks, shifts_texture
 from .squares import TOGETHER
@@ -37,7 +38,7 @@ class PackedRays:
         self.numbers = plain_texture(ctx, cells, 1, "f4")
         self._rays: Target | None = None
         self._shifts: moderngl.Texture | None = None
-        self._rows = 0  # in use
+        self._boxes: list[Box] = []  # in use
         self._order = _in_squares(cells)
 
     def choose(self, cells: Bool[np.ndarray, "rows columns"], first_is_known: Bool[np.ndarray, "rows columns"]) -> int:
@@ -60,7 +61,7 @@ class PackedRays:
         """Traces them; `rays` are of `blocks`."""
         rays.set(ray_grid=(1.0, 0.0, 0.0))
         self._there.frame.use()
-        rays.draw_boxes([(0, 0, _WIDTH, self._rows)])
+        rays.draw_boxes(box for box in self._boxes if box[2] and box[3])
 
     @property
     def blocks(self) -> RayBlocks:
@@ -91,19 +92,21 @@ class PackedRays:
         """Tells where the rays are from, whose blocks of `TOGETHER`² lie side by side (shaders/refine_half_put.frag); what is left of the last blocks are those
         of the last pixel."""
         across = _WIDTH // TOGETHER
-        self._rows = TOGETHER * -(-len(pixels) // (_IN_BLOCK * across))
-        whole = np.empty((self._rows * _WIDTH, 2), np.float32)
+        full, more = divmod(-(-len(pixels) // _IN_BLOCK), across)
+        self._boxes = [(0, 0, _WIDTH, TOGETHER * full), (0, TOGETHER * full, TOGETHER * more, TOGETHER)]
+        rows = TOGETHER * (full + (more > 0))
+        whole = np.empty((rows * _WIDTH, 2), np.float32)
         whole[: len(pixels)], whole[len(pixels) :] = pixels, pixels[-1]
-        in_blocks = whole.reshape(self._rows // TOGETHER, across, TOGETHER, TOGETHER, 2)
-        shifts = in_blocks.swapaxes(1, 2).reshape(self._rows, _WIDTH, 2) - _texels(self._rows)
-        if self._shifts is None or self._rays is None or self._shifts.height < self._rows:
+        in_blocks = whole.reshape(rows // TOGETHER, across, TOGETHER, TOGETHER, 2)
+        shifts = in_blocks.swapaxes(1, 2).reshape(rows, _WIDTH, 2) - _texels(rows)
+        if self._shifts is None or self._rays is None or self._shifts.height < rows:
             for item in (self._rays, self._shifts):
                 if item is not None:
                     item.release()
-            rows = max(_FIRST_ROWS, TOGETHER * (self._rows // TOGETHER + self._rows // (2 * TOGETHER) | 1))
-            self._shifts = shifts_texture(self._ctx, (_WIDTH, rows))
-            self._rays = Target.of(self._ctx, [plain_texture(self._ctx, (_WIDTH, rows), 4, "f4") for _ in range(self._count)])
-        self._shifts.write(shifts.tobytes(), (0, 0, _WIDTH, self._rows))
+            most = max(_FIRST_ROWS, TOGETHER * (rows // TOGETHER + rows // (2 * TOGETHER) | 1))
+            self._shifts = shifts_texture(self._ctx, (_WIDTH, most))
+            self._rays = Target.of(self._ctx, [plain_texture(self._ctx, (_WIDTH, most), 4, "f4") for _ in range(self._count)])
+        self._shifts.write(shifts.tobytes(), (0, 0, _WIDTH, rows))
 
 
 @lru_cache(maxsize=8)
