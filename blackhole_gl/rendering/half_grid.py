@@ -28,11 +28,11 @@ from .refinement import tolerances
 from .target import Target, plain_texture
 
 # Of a cell and the eight about it so many have to be traced: along lines, such as outlines of things, rays of their own are cheaper.
-_TOGETHER = 6
+_TOGETHER = 4
 
 # And so many times as many cells, those about them too, have such rays at most: along the outlines of a few balls it is twice as many and more, in what a
-# field crowds together 1.1 to 1.5 times.
-_MOST_RAYS = 1.8
+# field crowds together, or a mesh shows, 1.1 to 1.6 times.
+_MOST_RAYS = 1.7
 
 # Things that are seen as wide as that straight on, in pixels, are told by rays two pixels apart.
 _WIDE_PX = 16.0
