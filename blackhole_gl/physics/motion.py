@@ -61,11 +61,19 @@ class Mover:
 
 def rows(scene: Scene, slot: str, where: SpaceTime, time: float) -> Float[np.ndarray, "instances 4 4"]:
     """The motion at `time` (r_s/c) of the instances of `slot`, ``thing`` or ``medium``, in the scene's order: centre and reach, velocity and
-    the circle's rate, spin, attitude."""
-    standing, moving = _parted(met.named(scene, slot), met.kinds(scene, slot))
+    the circle's rate, spin, attitude. Not to be written to: it is kept."""
+    return _rows(met.named(scene, slot), met.kinds(scene, slot), where, time)
+
+
+@lru_cache(maxsize=4)  # a frame asks for those of its time alone, again and again
+def _rows(named: Instances, kinds: tuple[PlugIn, ...], where: SpaceTime, time: float) -> Float[np.ndarray, "instances 4 4"]:
+    standing, moving = _parted(named, kinds)
+    if not moving:
+        return standing
     found = standing.copy()
     for mover in moving:
         found[mover.place] = _row(of(mover.instance, mover.traits, where, time))
+    found.setflags(write=False)
     return found
 
 

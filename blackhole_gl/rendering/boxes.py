@@ -28,13 +28,12 @@ def box_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side
 
 def bands_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side: int, height: int) -> Iterator[Box]:
     """The same for each `height` rows of cells that hold any: for what lies about a hole, or far apart."""
-    filled = np.logical_or.reduce(picked, axis=1)
+    filled = np.logical_or.reduce(picked, axis=1).tobytes()  # of which the first and the last are found soon
     for first in range(0, len(picked), height):
-        rows = np.flatnonzero(filled[first : first + height])
-        if rows.size:
-            low, high = first + int(rows[0]), first + int(rows[-1]) + 1
-            columns = np.logical_or.reduce(picked[low:high])
-            left, right = int(columns.argmax()), columns.size - int(columns[::-1].argmax())
+        low, high = filled.find(1, first, first + height), filled.rfind(1, first, first + height) + 1
+        if low >= 0:
+            columns = np.logical_or.reduce(picked[low:high]).tobytes()
+            left, right = columns.find(1), columns.rfind(1) + 1
             x, y = side * left, side * low
             yield x, y, min(side * right, size[0]) - x, min(side * high, size[1]) - y
 

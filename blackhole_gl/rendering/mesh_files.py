@@ -63,12 +63,12 @@ class MeshFiles:
         path = files.located(key, value)
         try:
             found = stamps.stamp(path, MOST_BYTES)
-            if found not in self._kept:
-                self._kept[found] = _mesh_or_reason(path)
+            kept = self._kept.get(found)
+            if kept is None:
+                kept = self._kept[found] = _mesh_or_reason(path)
                 if len(self._kept) > _KEPT:
                     self._kept.popitem(last=False)
             self._kept.move_to_end(found)
-            kept = self._kept[found]
             if isinstance(kept, str):
                 raise Unusable(kept)
         except Unusable as error:
