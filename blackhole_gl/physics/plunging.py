@@ -9,6 +9,7 @@ It keeps the energy and the angular momentum of that orbit, so that with M = 1, 
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +40,7 @@ class FourVelocity(NamedTuple):
     around: Array
 
 
+@lru_cache(maxsize=64)
 def constants(spin: float, orbit: str = "prograde") -> Constants:
     """Those of the ISCO."""
     radius = 2.0 * float(relativity.isco_radius(spin, orbit))

@@ -70,7 +70,7 @@ class SpaceTime:
 
         With `kerr_like` that is Schwarzschild's, whatever the spin: light and matter of two space-times make no sense together close in.
         """
-        return float(relativity.isco_radius(spin_along(self.horizon_spin, disk), disk.orbit))
+        return _isco_radius(spin_along(self.horizon_spin, disk), disk.orbit)
 
     def matter_spin(self, disk: Disk) -> float:
         """a* of the hole whose circular orbits the matter of `disk` goes by, and its temperature."""
@@ -78,7 +78,7 @@ class SpaceTime:
 
     def matter_isco_radius(self, disk: Disk) -> float:
         """`isco_radius` of the space-time whose circular orbits the matter's frequency shift is worked out for."""
-        return float(relativity.isco_radius(self.matter_spin(disk), disk.orbit))
+        return _isco_radius(self.matter_spin(disk), disk.orbit)
 
     def disk_radii(self, disk: Disk) -> tuple[float, float]:
         """(inner, outer) edge of the circular orbits of `disk` in r_s: the inner one never inside the ISCO, the outer one never inside the inner."""
@@ -88,6 +88,11 @@ class SpaceTime:
     def orbit_sense(self, orbit: str) -> float:
         """+1 where the matter goes counter-clockwise seen from +z, or from where a tilted disk's axis points, −1 where clockwise."""
         return float(relativity.orbit_sense(self.spin, orbit))
+
+
+@lru_cache(maxsize=64)  # each frame asks for the same several times
+def _isco_radius(spin: float, orbit: str) -> float:
+    return float(relativity.isco_radius(spin, orbit))
 
 
 def spin_along(spin: float, disk: Disk) -> float:

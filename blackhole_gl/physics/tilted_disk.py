@@ -7,6 +7,8 @@ this one is held.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ..scene import Disk
@@ -20,10 +22,17 @@ Array = np.ndarray
 
 def axes(disk: Disk) -> Float[Array, "3 3"]:
     """The disk's own axes in the world, as rows: two in its plane, and that which stands on it. Without a tilt, or as it goes to 0, those of the world."""
-    (ahead, aside), (upright, lean) = cos_sin_deg(disk.tilt_azimuth_deg), cos_sin_deg(disk.tilt_deg)
+    return _axes(disk.tilt_azimuth_deg, disk.tilt_deg)
+
+
+@lru_cache(maxsize=16)
+def _axes(azimuth_deg: float, tilt_deg: float) -> Float[Array, "3 3"]:
+    (ahead, aside), (upright, lean) = cos_sin_deg(azimuth_deg), cos_sin_deg(tilt_deg)
     turn = np.array([[ahead, -aside, 0.0], [aside, ahead, 0.0], [0.0, 0.0, 1.0]])
     tip = np.array([[upright, 0.0, lean], [0.0, 1.0, 0.0], [-lean, 0.0, upright]])
-    return (turn @ tip @ turn.T).T
+    axes = (turn @ tip @ turn.T).T
+    axes.setflags(write=False)
+    return axes
 
 
 def placed(points: Float[Array, "*points 2"], disk: Disk) -> Float[Array, "*points 3"]:
