@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 
 from ..physics import motion
-from ..planning import REACH_STEP, REFINE_STEP, Plan
+from ..planning import REACH_STEP, REFINE_STEP, Plan, steps_in_motion
 from ..scene import met
 from ..shapes import Bool, Float, Int
 from .boxes import Box
@@ -36,7 +36,7 @@ ALONE = {"ORDERS": 0, "MEETINGS": 0}
 _INNERMOST, _OUTERMOST = 1.02, 3.0
 
 
-# Ways in a field are held against balls in pieces as long as that, r_s, which are cubics.
+# Ways in a field are held against balls in pieces as long as that, r_s, which are cubics; where steps are longer than the plan's, the way bends the less.
 _PIECE = 1.6
 
 # What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough.
@@ -157,7 +157,8 @@ class Reach:
             exact: for squares that nothing else judges; else cells between whose rays directions are not to be interpolated may show what they are near, too.
         """
         made = self._targets(inputs.size)
-        nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", inputs, ALONE)
+        traced, length = (inputs, inputs.plan.step_length) if exact else _longer_steps(inputs)
+        nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", traced, ALONE)
         seen = balls[:, 3] > 0.0  # lamps may have no size
         few = gathered(balls[seen], MOST_BALLS) if np.any(seen) else _NOWHERE
         each_its_own = np.count_nonzero(seen) == len(few)
@@ -167,7 +168,7 @@ class Reach:
         balls_held["reach_not_linear"] = _BY_ITSELF if exact else _NOT_LINEAR
         nodes.set(**balls_held)
         if inputs.plan.model.traits.field:
-            nodes.set(reach_stride=_stride(inputs.plan))
+            nodes.set(reach_stride=max(1, int(_PIECE / length)))
         found: Sequence[moderngl.Texture] = ()
         parted, things = _parted(inputs.plan, own), dict[str, moderngl.Texture]()
         for step, level in made.levels.items():
@@ -273,9 +274,10 @@ def _shell(plan: Plan) -> tuple[float, float]:
     return _INNERMOST * plan.space_time.horizon_radius, max(least, plan.reach)
 
 
-def _stride(plan: Plan) -> int:
-    """Steps in a field that make one piece: where they are longer than the plan's, it bends the less."""
-    return max(1, int(_PIECE / plan.step_length))
+def _longer_steps(inputs: FrameInputs) -> tuple[FrameInputs, float]:
+    """`inputs` by steps as long as they may be in motion, and that length in r_s, unless one is longer than a piece: pieces are no longer for it."""
+    length = inputs.plan.step_length * steps_in_motion(inputs.plan, inputs.picture[1])
+    return (inputs.in_motion(), length) if length <= _PIECE else (inputs, inputs.plan.step_length)
 
 
 def gathered(balls: Float[np.ndarray, "balls 4"], most: int) -> Float[np.ndarray, "balls 4"]:
