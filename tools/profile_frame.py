@@ -18,6 +18,7 @@ from blackhole_gl.rendering.context import create_headless
 from blackhole_gl.scene import presets
 
 TURN_DEG = 0.5  # between frames, in both angles
+WAYS = ("draw", "draw_boxes", "draw_squares", "draw_patches", "draw_mesh", "draw_points")
 
 
 class Profile:
@@ -28,8 +29,21 @@ class Profile:
         self._path: dict[int, str] = {}
         self.times: dict[str, list[tuple[float, float]]] = defaultdict(list)
         self._name_programs(renderer.programs)
-        plain = draw.Draw.draw
-        draw.Draw.draw = lambda prepared: self.timed(self._path.get(prepared.serial, "?"), lambda: plain(prepared))
+        self._draws = False  # one way to draw may use another
+        for way in WAYS:
+            self._time_draws(way)
+
+    def _time_draws(self, way: str) -> None:
+        plain = getattr(draw.Draw, way)
+
+        def timed(prepared, *arguments):
+            if self._draws:
+                return plain(prepared, *arguments)
+            self._draws = True
+            self.timed(self._path.get(prepared.serial, "?"), lambda: plain(prepared, *arguments))
+            self._draws = False
+
+        setattr(draw.Draw, way, timed)
 
     def _name_programs(self, kept: programs.Programs) -> None:
         plain = kept.get
