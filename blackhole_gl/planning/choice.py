@@ -110,23 +110,43 @@ def choose(scene: Scene, *, sky_alone: bool = True) -> Choice:
     why_not = _not_measured(scene)
     if why_not:
         return Choice(_plainly(scene), None, None, math.nan, True, (why_not,))
-    found = sorted(predictions(scene, sky_alone), key=attrgetter("cost"))
-    if not found:
+    ranked = _ranked(_asked(scene), _lens(scene, sky_alone))
+    if ranked is None:
         return Choice(_plainly(scene), None, None, math.nan, True, ("nothing was measured that fits: plain steps",))
-    floor = min(p.error_px for p in found)
-    good = [p for p in found if p.error_px <= scene.rays.tolerance]
-    by_things = is_field(scene) and not met.is_empty(scene) and any(map(_adapts, good)) and not all(map(_adapts, good))
+    return Choice(_stated(scene, ranked.best), ranked.best, ranked.rival, ranked.floor_px, ranked.meets, ranked.reasons)
+
+
+@dataclass(frozen=True)
+class _Ranked:
+    """What is best of the methods that fit, as `Choice` has it."""
+
+    best: Prediction
+    rival: Prediction | None
+    floor_px: float
+    meets: bool
+    reasons: tuple[str, ...]
+
+
+@lru_cache(maxsize=64)
+def _ranked(asked: _Asked, lens: Prediction | None) -> _Ranked | None:
+    """None where nothing fits. Kept, as most cameras that move change none of it."""
+    found = sorted(_marched(asked) + ((lens,) if lens else ()), key=attrgetter("cost"))
+    if not found:
+        return None
+    floor, tolerance = min(p.error_px for p in found), asked.rays.tolerance
+    good = [p for p in found if p.error_px <= tolerance]
+    by_things = asked.in_field and asked.has_things and any(map(_adapts, good)) and not all(map(_adapts, good))
     if by_things:
         good.sort(key=_adapts)
     ranked = good or sorted(found, key=attrgetter("error_px"))
     best = _of_those_as_cheap(ranked) if good else ranked[0]
     rival = next((p for p in ranked if p.method.kind != best.method.kind), None)
-    reasons = [f"{best.method}: {_why(scene, best, bool(good), floor)}"]
+    reasons = [f"{best.method}: {_why(tolerance, best, bool(good), floor)}"]
     if by_things:
         reasons.append("methods whose steps have one length come first: by those coarse rays tell where things are seen while the camera moves")
     if rival is not None:
         reasons.append(f"runner-up: {rival.method}, {rival.error_px:.2g} px at {rival.cost:.3g} flat frames")
-    return Choice(_stated(scene, best), best, rival, floor, bool(good), tuple(reasons))
+    return _Ranked(best, rival, floor, bool(good), tuple(reasons))
 
 
 def _of_those_as_cheap(ranked: Sequence[Prediction]) -> Prediction:
@@ -159,27 +179,55 @@ def is_open(scene: Scene) -> bool:
 
 def predictions(scene: Scene, sky_alone: bool = True) -> tuple[Prediction, ...]:
     """What the chart lets expect of every measured method that fits what `scene` states; `sky_alone` as `choose` has it."""
+    lens = _lens(scene, sky_alone)
+    return _marched(_asked(scene)) + ((lens,) if lens else ())
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What the chart is asked for a scene.
+
+    Attributes:
+        near: measured scenes, the likest first.
+        rays: those of the scene.
+        spins, has_things, in_field: whether its hole does, it has any, and it is of a field.
+        any_control: whether any step control will do, or those alone that judge their steps.
+        pixels: of its picture.
+    """
+
+    near: tuple[str, ...]
+    rays: Rays
+    spins: bool
+    has_things: bool
+    in_field: bool
+    any_control: bool
+    pixels: _Pixels
+
+
+def _asked(scene: Scene) -> _Asked:
+    in_field = is_field(scene)
     # A harder field asks for shorter steps; a control that judges its steps finds them.
-    any_control = not is_field(scene) or nearest.bounds_steps(scene)
-    near = nearest.nearest_scenes(scene)
-    found = _marched(near, scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), any_control, _pixels(scene))
-    if sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene):
-        # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
-        rows = tuple(row for row in _measured_in(near) if row.model == thin_lens.MODEL)
-        found += tuple(Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio) for row in rows[:1])
-    return found
+    any_control = not in_field or nearest.bounds_steps(scene)
+    return _Asked(nearest.nearest_scenes(scene), scene.rays, scene.hole.spin != 0.0, not met.is_empty(scene), in_field, any_control, _pixels(scene))
+
+
+def _lens(scene: Scene, sky_alone: bool) -> Prediction | None:
+    """What is expected of the displacement on the screen, where it may be taken for `scene` and was measured."""
+    if not (sky_alone and scene.rays.model == AUTO and thin_lens.draws(scene)):
+        return None
+    # Its error is known in closed form, so that no measured scene has to be like this one; its cost is the same in all.
+    row = next((row for row in _measured_in(nearest.nearest_scenes(scene)) if row.model == thin_lens.MODEL), None)
+    return None if row is None else Prediction(row.stated, thin_lens.error_px(scene, PICTURE_HEIGHT), row.cost_flat_ratio)
 
 
 @lru_cache(maxsize=64)
-def _marched(near: tuple[str, ...], rays: Rays, spins: bool, has_things: bool, any_control: bool, pixels: _Pixels) -> tuple[Prediction, ...]:
-    """What is expected of `_candidates`; unless `any_control` will do, of those that judge their steps alone.
-
-    Kept, as most cameras that move change none of it.
-    """
+def _marched(asked: _Asked) -> tuple[Prediction, ...]:
+    """What is expected of `_candidates`; unless `any_control` will do, of those that judge their steps alone."""
+    of = asked.pixels.of
     return tuple(
-        Prediction(method, max(pixels.of(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
-        for method, rows in _candidates(near, rays, spins, has_things)
-        if any_control or method.step_tolerance
+        Prediction(method, max(of(row.direction_99, row.crossing_r_99) for row in rows), rows[0].cost_flat_ratio)
+        for method, rows in _candidates(asked.near, asked.rays, asked.spins, asked.has_things)
+        if asked.any_control or method.step_tolerance
     )
 
 
@@ -292,7 +340,7 @@ def _pixels(scene: Scene, fov_deg: float | None = None, distance: float | None =
 def forget_choices() -> None:
     """To be called when `measurements` has changed: what was chosen by the old ones is chosen anew."""
     nearest.forget()
-    for kept in (_candidates, _marched, _rows_by_method, choose, refinement):
+    for kept in (_candidates, _marched, _ranked, _rows_by_method, choose, refinement):
         kept.cache_clear()
 
 
@@ -357,8 +405,8 @@ def _fits(rays: Rays, spins: bool, has_things: bool, row: Measured) -> bool:
     )
 
 
-def _why(scene: Scene, best: Prediction, good: bool, floor: float) -> str:
+def _why(tolerance: float, best: Prediction, good: bool, floor: float) -> str:
     expected = f"{best.error_px:.2g} px expected at 99 % of the pixels, {best.cost:.3g} flat frames"
     if good:
-        return f"the cheapest measured method within {scene.rays.tolerance:g} px ({expected})"
-    return f"no measured method meets {scene.rays.tolerance:g} px here; this one is nearest ({expected}); the floor is {floor:.2g} px"
+        return f"the cheapest measured method within {tolerance:g} px ({expected})"
+    return f"no measured method meets {tolerance:g} px here; this one is nearest ({expected}); the floor is {floor:.2g} px"
