@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
-from ..physics import motion
+from ..physics import motion, projection
 from ..planning import REACH_STEP, REFINE_STEP, Plan, steps_in_motion
 from ..scene import met
 from ..shapes import Bool, Float, Int
@@ -39,8 +39,10 @@ _INNERMOST, _OUTERMOST = 1.02, 3.0
 # Ways in a field are held against balls in pieces as long as that, r_s, which are cubics; where steps are longer than the plan's, the way bends the less.
 _PIECE = 1.6
 
-# What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough.
+# What is not linear between four rays that miss a ball, of the margin that each of them has by itself: twice as much as tests hold to be enough where they are
+# `_APART` (rad) from each other. It grows as the square of that, the margin as that itself; where they are nearer it is less, but never next to nothing.
 _NOT_LINEAR, _BY_ITSELF = 0.3, 1.0
+_APART, _LEAST_NOT_LINEAR = 0.02, 0.1
 
 # What is held against where nothing has a size.
 _NOWHERE = np.array([(1e9, 0.0, 0.0, 0.0)])
@@ -165,7 +167,6 @@ class Reach:
         own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
         table = {"reach_balls": self._table(few, own, filled)}
         balls_held: dict[str, object] = {"reach_count": len(few), "reach_steps": inputs.plan.reach_steps, "reach_radii": _shell(inputs.plan)}
-        balls_held["reach_not_linear"] = _BY_ITSELF if exact else _NOT_LINEAR
         nodes.set(**balls_held)
         if inputs.plan.model.traits.field:
             nodes.set(reach_stride=max(1, int(_PIECE / length)))
@@ -179,6 +180,7 @@ class Reach:
                 nodes.set(reach_parted=parted, **balls_held)
             self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {**table, **things})
             nodes.set(reach_step=float(step), reach_first=tuple(map(float, level.box[:2])))
+            nodes.set(reach_not_linear=_BY_ITSELF if exact else _not_linear(inputs, step))
             frame = level.nodes.frame
             frame.use()
             frame.depth_mask = False
@@ -272,6 +274,12 @@ def balls(plan: Plan, time: float) -> Float[np.ndarray, "balls 4"]:
 def _shell(plan: Plan) -> tuple[float, float]:
     least = plan.scene.rays.field_radius if plan.model.traits.field else _OUTERMOST * plan.scene.hole.gravity_strength
     return _INNERMOST * plan.space_time.horizon_radius, max(least, plan.reach)
+
+
+def _not_linear(inputs: FrameInputs, step: int) -> float:
+    """What is not linear between rays `step` pixels apart, of the margin."""
+    apart = step * projection.view_angle(inputs.plan.scene.camera) / inputs.picture[1]
+    return min(max(_NOT_LINEAR * apart / _APART, _LEAST_NOT_LINEAR), _NOT_LINEAR)
 
 
 def _longer_steps(inputs: FrameInputs) -> tuple[FrameInputs, float]:
