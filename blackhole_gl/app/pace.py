@@ -39,6 +39,6 @@ class Pace:
 
     def learn(self, report: Any, scale: float) -> None:
         """Takes in what the picture at `scale` cost; see ``rendering.frame_report.FrameReport``."""
-        self._took_ms = report.took_ms
+        self._took_ms = report.trace_ms + report.shade_ms + report.post_ms
         if not report.sharpened:
             self._resolution.record(scale, self._took_ms, traced=report.traced)

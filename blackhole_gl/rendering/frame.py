@@ -7,7 +7,6 @@ import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import count
 
 import moderngl
 import numpy as np
@@ -36,8 +35,6 @@ from .temperatures import TemperatureProfile
 from .tiles import TILE, Kind, Lights, Spread, Tile
 from .turning import TurningPass, Turns, can_turn
 from .uniforms import stars_a_pixel
-
-_MEASURED_OF = 8  # frames of a camera that moves: each pass of one alone is waited for, as the host is at work meanwhile in the others
 
 
 class Renderer:
@@ -75,8 +72,6 @@ class Renderer:
         self._last: FrameInputs | None = None  # without media that are marched apart
         self.shadings = 0
         self._marched = 0  # rays, by the end of the last frame
-        self._passes_ms = (0.0, 0.0, 0.0)  # of the last frame in which each was waited for
-        self._moving = count()  # of measured frames of a camera that moves
         self._turning_shown = False  # whether the last picture is of the pass of that name
         self._turning_waits = False  # whether a program of it was missing
         self._radiance: Target | None = None
@@ -106,7 +101,7 @@ class Renderer:
             size: (width, height) of the picture in pixels, each at least 1.
             target: where it goes; an own 8-bit picture, read by `read_rgb8`, when None.
             viewport: (x, y, width, height) in the target; the whole picture at (0, 0) when None.
-            measure: wait for the picture, so that the report's milliseconds mean something; and for each pass, of a `progressive` picture in one of eight.
+            measure: wait for each pass to end, so that the report's milliseconds mean something.
             progressive: for a camera that moves: new hits may be interpolated between exact rays, within the scene's tolerance; each
                 further call for the same hits makes a slice of the picture exact, until the report says that it is sharp. Pixels at edges have four rays, or
                 sixteen where they are far coarser than those `shown`, and one at plain outlines of things.
@@ -121,7 +116,6 @@ class Renderer:
             ShaderError: a shader has a mistake.
         """
         stamps = [clock.perf_counter()]
-        each = measure and (not progressive or next(self._moving) % _MEASURED_OF == 0)
         shown = shown if keeps_stars(scene) else None
         planned = self.exposure.of(diagnostics.prepared(make_plan(scene)), patient=progressive)
         before, turned = self._turns.last, self._turns.turned(scene)
@@ -135,8 +129,7 @@ class Renderer:
         if self._turning_shown:
             self.last.show(None)
             self._stamp(stamps, measure)
-            took_ms = 1e3 * (stamps[-1] - stamps[0]) if measure else 0.0
-            made = self._report((took_ms, 0.0, took_ms, 0.0), False, planned, sharp=False, telling=False)
+            made = self._report((0.0, 1e3 * (stamps[-1] - stamps[0]) if measure else 0.0, 0.0), False, planned, sharp=False, telling=False)
             return replace(made, sharpened=self._turning.prepares)
         inputs = FrameInputs.whole(planned, time, size, shown=shown)
         media = coarse_transfer.of(inputs, moving=progressive, passes=glow_may_last)
@@ -144,7 +137,7 @@ class Renderer:
         self.last.show(inputs, apart=rest is not inputs)
         traced = self._trace(rest, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
-        self._stamp(stamps, each)
+        self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
         if not progressive and self.programs.deadline < math.inf:
             self._ask_for_coarse_media(inputs)
@@ -154,14 +147,11 @@ class Renderer:
         telling = telling or self.coarse_transfer.tells
         marched = not progressive or self._march_exactly(inputs, rest, passes=glow_may_last, stays=not traced or self.hit_map.sharpened)
         telling = telling or glow_may_last and not marched
-        self._stamp(stamps, each)
+        self._stamp(stamps, measure)
         self._post.draw(rest, radiance.texture, target or self._own_picture(size).frame, viewport or (0, 0, *size), glow_may_last=glow_may_last)
         self._stamp(stamps, measure)
-        if each:
-            trace, shade, post = (1e3 * (b - a) for a, b in zip(stamps, stamps[1:]))
-            self._passes_ms = trace, shade, post
-        took_ms = (1e3 * (stamps[-1] - stamps[0]), *self._passes_ms) if measure else (0.0, 0.0, 0.0, 0.0)
-        return self._report(took_ms, traced, inputs.plan, sharp=marched and self.hit_map.is_sharp, telling=telling)
+        trace_ms, shade_ms, post_ms = (1e3 * (b - a) if measure else 0.0 for a, b in zip(stamps, stamps[1:]))
+        return self._report((trace_ms, shade_ms, post_ms), traced, inputs.plan, sharp=marched and self.hit_map.is_sharp, telling=telling)
 
     def _turned(self, draw: Callable[[], bool]) -> bool:
         """Whether `draw`, of the pass that turns views, has drawn. It may compile a program a frame whenever that is; while others are missing the picture is
@@ -495,7 +485,7 @@ class Renderer:
             old.release()
         return Target.of(self.ctx, [self.ctx.texture(size, components, dtype=dtype)])
 
-    def _report(self, took_ms: tuple[float, float, float, float], traced: bool, plan: Plan, *, sharp: bool, telling: bool) -> FrameReport:
+    def _report(self, took_ms: tuple[float, float, float], traced: bool, plan: Plan, *, sharp: bool, telling: bool) -> FrameReport:
         made, exposure = self.hit_map, self.exposure
         marched, self._marched = self._marched, self.hit_map.marched + self.edges.marched + self._turning.marched
         told = plan.method, plan.reasons, plan.warnings, exposure.stops, exposure.settled

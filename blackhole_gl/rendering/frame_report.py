@@ -10,8 +10,7 @@ class FrameReport:
     """What one frame took.
 
     Attributes:
-        took_ms: wall-clock milliseconds of the frame; 0 unless asked to measure.
-        trace_ms, shade_ms, post_ms: of each pass, of this frame or of the last in which each was waited for; all 0 unless asked to measure.
+        trace_ms, shade_ms, post_ms: wall-clock milliseconds of each pass; all 0 unless asked to measure.
         traced: whether rays of the hit map were traced; False when what is kept of it, or of directions, served.
         marched: how many rays were, for the picture's pixels and for what it keeps of directions beside it.
         sharp: whether every pixel had a ray of its own.
@@ -23,7 +22,6 @@ class FrameReport:
         settled: whether that is what it will add to the next frame of the same, too.
     """
 
-    took_ms: float
     trace_ms: float
     shade_ms: float
     post_ms: float

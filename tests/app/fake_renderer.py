@@ -13,7 +13,6 @@ from blackhole_gl.rendering.pixel_values import OnDisk, PixelValues
 
 @dataclass(frozen=True)
 class Report:
-    took_ms: float = 3.0
     trace_ms: float = 1.0
     shade_ms: float = 1.0
     post_ms: float = 1.0
@@ -72,8 +71,7 @@ class FakeRenderer:
         self.glow_may_last = glow_may_last
         target.use()
         target.clear(0.5 + scene.camera.azimuth_deg / 720.0, 0.3, 0.1, 1.0, viewport=viewport)
-        traced_ms = 1e-3 * self.us_per_pixel * size[0] * size[1]
-        return Report(took_ms=traced_ms + 2.0, trace_ms=traced_ms, traced=self.us_per_pixel > 0.0, settled=self.settled)
+        return Report(trace_ms=1e-3 * self.us_per_pixel * size[0] * size[1], traced=self.us_per_pixel > 0.0, settled=self.settled)
 
     def turns(self, scene):
         return False

@@ -166,17 +166,3 @@ def test_the_picture_is_that_of_exact_rays(renderer: Renderer) -> None:
     renderer.render(scene, 0.0, (1280, 720), progressive=True)
     apart = np.abs(renderer.read_rgb8().astype(int) - exact).max(axis=-1)
     assert np.mean(apart > 2) < 0.0005
-
-
-def test_of_a_camera_that_moves_each_pass_is_waited_for_in_one_frame_of_eight(renderer: Renderer, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The host's work on the next pass goes on while the last is drawn. The figures of a picture at rest are its own."""
-    waits, plain = [], Renderer._stamp
-    monkeypatch.setattr(Renderer, "_stamp", lambda self, stamps, wait: waits.append(wait) or plain(self, stamps, wait))
-    scene = presets.load(["kerr"])
-    for frame in range(16):
-        report = renderer.render(scene.with_values({"camera.inclination_deg": 60.0 + frame}), 0.0, (64, 36), measure=True, progressive=True)
-        assert report.took_ms > 0.0 and min(report.trace_ms, report.shade_ms, report.post_ms) > 0.0
-    assert waits[2::3] == [True] * 16 and waits[::3] == waits[1::3] and waits[::3].count(True) == 2
-    report = renderer.render(scene, 0.0, (64, 36), measure=True)
-    assert waits[-3:] == [True] * 3 and report.took_ms == pytest.approx(report.trace_ms + report.shade_ms + report.post_ms)
-    assert renderer.render(scene, 0.0, (64, 36)).took_ms == 0.0
