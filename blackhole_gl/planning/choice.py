@@ -30,6 +30,9 @@ REFINED_SIZE, REFINED_TOLERANCE = (1280, 720), 0.5
 # A method may end no more than 1 % of the rays wrongly: the tolerance speaks of 99 % of the pixels.
 _WRONG_FATES = 0.01
 
+# Errors below are rounding, px.
+_EXACT_PX = 1e-9
+
 # Measured costs are no better known than this.
 _AS_CHEAP = 1.03
 
@@ -269,8 +272,26 @@ def stated_error_px(scene: Scene) -> float:
     """What the chart lets expect of the method of `scene`, which leaves nothing open, in pixels of a picture 1080 high; NaN where it was not measured."""
     if not scene.rays.lensing or _not_measured(scene):
         return math.nan
+    return _measured_error_px(scene, _stated_method(scene))
+
+
+def error_order(scene: Scene) -> float:
+    """The power of the step by which the error of `scene`, which leaves nothing open, grows up to the next longer step measured; NaN where there is none."""
+    method, error = _stated_method(scene), stated_error_px(scene)
+    if math.isnan(error):
+        return math.nan
+    known = _rows_by_method(nearest.nearest_scenes(scene))
+    alike = (other for other in known if other.kind == method.kind and other.step_length > method.step_length > 0.0)
+    longer = min(alike, key=attrgetter("step_length"), default=None)
+    if longer is None:
+        return math.nan
+    return math.log(_measured_error_px(scene, longer) / max(error, _EXACT_PX)) / math.log(longer.step_length / method.step_length)
+
+
+def _measured_error_px(scene: Scene, method: Method) -> float:
+    """What the chart lets expect of `method` in `scene`; NaN where it was not measured."""
     near = nearest.nearest_scenes(scene)
-    rows = _rows_by_method(near).get(_stated_method(scene), {})
+    rows = _rows_by_method(near).get(method, {})
     in_px = _pixels(scene).of
     found = [in_px(row.direction_99, row.crossing_r_99) for row in (rows.get((name, False)) for name in near) if row is not None]
     return max(found) if found and len(found) == len(near) else math.nan

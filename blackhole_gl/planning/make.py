@@ -81,6 +81,7 @@ def plan(scene: Scene, *, keep_crossings: bool = False) -> Plan:
         reach=reach,
         reach_steps=reach_steps,
         error_px=choice.stated_error_px(scene) if is_field(scene) and stretch == 1.0 else math.nan,
+        error_order=choice.error_order(scene) if is_field(scene) and stretch == 1.0 else math.nan,
         refine_px=refine_px(scene) if refine else 0.0,
         frame=MERIDIAN if met.is_empty(scene) and not is_field(scene) and not scene.disk.tilt_deg else WORLD,
         reasons=tuple(reasons),

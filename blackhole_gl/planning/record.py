@@ -63,6 +63,7 @@ class Plan:
         reach_steps: steps in which coarse rays tell where in a picture the things and media can be seen; 0: that is not known, and they may be anywhere.
         error_px: that of the march in a field at 99 % of the rays, by the chart, in pixels of a picture 1080 high; NaN where it was not measured, and
             about holes.
+        error_order: the power of the step by which that grows up to the next longer one that was measured; NaN where none was.
         refine_px: error in pixels that interpolation between exact rays may add while the camera moves; 0: every pixel has its own ray.
         frame: what rays are traced in: the camera's ``meridian`` (the world turned about the spin axis so that the camera's azimuth is 0), so that a camera
             which turns about the axis keeps its hits, where all that bends rays and that they meet is symmetric about the axis; else the ``world``.
@@ -87,6 +88,7 @@ class Plan:
     reach: float
     reach_steps: int
     error_px: float
+    error_order: float
     refine_px: float
     frame: Frame
     reasons: tuple[str, ...]

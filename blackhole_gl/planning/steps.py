@@ -35,15 +35,17 @@ _MORE_ORDERS, _LONGEST_IN_MOTION = 1, 1.5
 
 
 def steps_in_motion(plan: Plan, height: int) -> float:
-    """How many times as long steps are under a moving camera, of rays at no outline, in a picture `height` pixels high.
+    """How many times as long steps are under a moving camera, of rays that meet nothing, in a picture `height` pixels high.
 
-    A tolerance is in pixels of a picture 1080 high; one that moves and is drawn with fewer has it in its own. The error grows as a power of the step,
-    and that of long steps faster than by the scheme's order.
+    A tolerance is in pixels of a picture 1080 high; one that moves and is drawn with fewer has it in its own. The error grows as a power of the step: as was
+    measured, and that of long steps faster than by the scheme's order.
     """
     if math.isnan(plan.error_px) or plan.integrator is None or plan.step_control is None or plan.step_control.traits.adapts:
         return 1.0
     allowed = plan.scene.rays.tolerance * max(choice.PICTURE_HEIGHT / height, 1.0)
-    return min(max(allowed / max(plan.error_px, 1e-9), 1.0) ** (1.0 / (plan.integrator.traits.order + _MORE_ORDERS)), _LONGEST_IN_MOTION)
+    least = plan.integrator.traits.order + _MORE_ORDERS
+    order = least if math.isnan(plan.error_order) else max(least, plan.error_order)
+    return min(max(allowed / max(plan.error_px, 1e-9), 1.0) ** (1.0 / order), _LONGEST_IN_MOTION)
 
 
 def march_bound(scene: Scene, model: PlugIn) -> float:

@@ -307,9 +307,8 @@ class HitMap:
                 self.known = reached
                 rays = self._programs.get("trace.frag", inputs, KNOWN)
             if reached.fills and inputs.plan.meetings == 1:
-                filling = self._programs.get("trace.frag", inputs.in_motion(), KNOWN if self.known is not None else {})
-                self._bind_tables(filling)
-                filled = self._things.trace(filling, reached)
+                self._bind_tables(rays)
+                filled = self._things.trace(rays, reached)
             coarse = self._programs.get("trace.frag", inputs.in_motion(), NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, filled)

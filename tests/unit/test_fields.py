@@ -110,3 +110,12 @@ def test_the_panel_shows_a_hole_or_a_field_and_never_both() -> None:
     of_field, of_hole = ({item.key for item in panel.shown_fields(scene)} for scene in (field("lorenz"), presets.load(["kerr"])))
     assert "hole.spin" in of_hole and not any(key.startswith("rays.field_") for key in of_hole)
     assert {"rays.field_radius", "rays.field_way", "rays.lorenz.rho"} <= of_field and not any(key.startswith("hole.") for key in of_field)
+
+
+def test_steps_in_motion_go_by_how_the_error_was_seen_to_grow() -> None:
+    """That of the shock wave grows faster than by the scheme's order and one more: longer steps keep within the tolerance by what was measured."""
+    made = planning.plan(presets.load(["objects_refraction"]))
+    assert made.integrator is not None and made.error_order > made.integrator.traits.order + 1
+    times = planning.steps_in_motion(made, 360)
+    assert 1.0 < times < 1.5 and made.error_px * times**made.error_order == pytest.approx(3.0 * made.scene.rays.tolerance)
+    assert np.isnan(planning.plan(field("lorenz", rays__lorenz__strength=4e-3, rays__field_radius=20.0)).error_order), "no such field was measured"
