@@ -333,7 +333,8 @@ class HitMap:
             for draw, _, _, where in drawn:
                 self._bind_tables(draw)
                 self._half.trace(draw, where)
-            narrow = half_grid.narrow_balls(rays.inputs, self._met.balls, self._met.bodies)
+            # Where not each ball is one thing's there is no bit for each, and rays at every second pixel are for cells alone that show none.
+            narrow = 0 if self.known is None else half_grid.narrow_balls(rays.inputs, self._met.balls, self._met.bodies)
             self._half.judge(rays.inputs, self._grid.cells, self._grid.cell_classes, self.known, narrow)
             self._half.fill(rays.inputs, self.textures)
         for draw, where, textures, _ in drawn:

@@ -83,6 +83,18 @@ def test_balls_behind_the_shipped_shock_wave_are_where_they_are(renderer: Render
     assert renderer.hit_map.own_rays().mean() < 0.19
 
 
+def test_things_of_which_there_are_more_than_bits_are_where_they_are(renderer: Renderer) -> None:
+    """A lot of small balls in an explosion, which are not told apart: rays at every second pixel are for what lies beside them."""
+    rng, values = np.random.default_rng(7), {**EXPLOSION, "rays.edges": 1}
+    for number in range(60):
+        place = dict(zip("xyz", map(float, rng.uniform(-1.0, 1.0, 3) + (0.0, 4.0, 0.0))))
+        values |= {f"things.small_{number}.{key}": value for key, value in {"kind": "sphere", "radius": 0.1, **place}.items()}
+    scene = presets.load(["explosion"], values)
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    np.testing.assert_array_equal(found.met, exact.met)
+    assert 0.001 < (exact.met[..., 0, 0] >= 0).mean() and renderer.hit_map.own_rays().mean() < 0.5
+
+
 def test_no_place_on_a_mesh_is_interpolated_between_its_near_and_its_far_part(renderer: Renderer) -> None:
     """Outlines may be displaced as everywhere in motion, be it before another strand: what is interpolated lies where one of the nine pixels about has it."""
     scene = presets.load(["knot_behind_a_hole"], {"rays.edges": 1})
