@@ -134,10 +134,15 @@ def used(scene: Scene) -> list[PlugIn]:
 
 
 def key(plan: Plan, time: float) -> tuple:
-    """What hits depend on here, an entry for each instance: its slot, kind and values but for its surface, and the places of those that move."""
+    """What hits depend on here, an entry for each instance: its slot, kind and values but for its surface, its mesh, and the places of those that move.
+
+    Raises:
+        SceneError: a mesh cannot be used.
+    """
     found: list[tuple] = []
+    named_meshes = meshes.of(plan.scene)
     for slot in met.SLOTS:
-        shapes = list(_shapes(met.named(plan.scene, slot), met.kinds(plan.scene, slot)))
+        shapes = list(_shapes(met.named(plan.scene, slot), met.kinds(plan.scene, slot), named_meshes))
         for mover in motion.movers(plan.scene, slot):
             if motion.moves(mover.instance, mover.traits):
                 here = motion.of(mover.instance, mover.traits, plan.space_time, time)
@@ -147,11 +152,16 @@ def key(plan: Plan, time: float) -> tuple:
 
 
 @lru_cache(maxsize=met.SCENES_KEPT)
-def _shapes(named: Instances, kinds: tuple[PlugIn, ...]) -> tuple[tuple, ...]:
+def _shapes(named: Instances, kinds: tuple[PlugIn, ...], named_meshes: meshes.Meshes | None) -> tuple[tuple, ...]:
     """Of each instance what its hits depend on beside its place."""
+    places = named_meshes.places if named_meshes else {}
+    of_mesh = {kind.key: [name for name, item in kind.parameters.items() if meshes.is_mesh(item)] for kind in kinds}
     seen = {kind.key: [name for name in kind.parameters if not (_has_surface(kind) and name in surfaces.SURFACE)] for kind in kinds}
     slots = {kind.key: kind.slot for kind in kinds}
-    return tuple((slots[one.kind], one.kind, tuple(one.values[name] for name in seen[one.kind])) for one in named.values())
+    return tuple(
+        (slots[one.kind], one.kind, tuple(one.values[name] for name in seen[one.kind]), tuple(places.get(str(one.values[name])) for name in of_mesh[one.kind]))
+        for one in named.values()
+    )
 
 
 class InstanceTables:
@@ -160,19 +170,19 @@ class InstanceTables:
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
         self._kept: dict[str, tuple[np.ndarray, moderngl.Texture]] = {}
-        self._made: tuple[Plan, float, dict[str, moderngl.Texture]] | None = None
+        self._made: tuple[Plan, float, meshes.Meshes | None, dict[str, moderngl.Texture]] | None = None
         self._of_places: tuple[tuple, dict[str, np.ndarray]] | None = None  # what no camera changes, and what it depends on
 
     def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
         """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
-        if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan):
-            found = meshes.of(plan.scene)
+        found = meshes.of(plan.scene)
+        if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan) or self._made[2] is not found:
             files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
             tables = {**self._tables(plan, time, files), "lamps_table": lamps.rows(plan, time)}
             if found:
                 tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
-            self._made = plan, time, {name: self._texture(name, table) for name, table in tables.items()}
-        return self._made[2]
+            self._made = plan, time, found, {name: self._texture(name, table) for name, table in tables.items()}
+        return self._made[3]
 
     def release(self) -> None:
         """Gives the GL objects back."""

@@ -44,11 +44,13 @@ class Meshes:
     Attributes:
         roots: value of a mesh field → the first node of its mesh.
         trees: value → its hierarchy, and what its leaves hold.
+        places: value → its file as it was read, and the first of its triangles: hits, which number these, are others where either is.
         triangles: float32 (rows, columns, 4), `TEXELS` each.
     """
 
     roots: Mapping[str, int]
     trees: Mapping[str, _Tree]
+    places: Mapping[str, tuple[Stamp, int]]
     triangles: np.ndarray
 
     def nodes(self, plan: Plan, time: float) -> np.ndarray:
@@ -78,22 +80,23 @@ def of(scene: Scene) -> Meshes | None:
     if place not in _MADE:
         while len(_MADE) >= _MOST_MADE:
             _MADE.pop(next(iter(_MADE)))
-        _MADE[place] = _made([(value, mesh) for value, _, mesh in read])
+        _MADE[place] = _made(read)
     return _MADE[place]
 
 
-def _made(meshes: list[tuple[str, Mesh]]) -> Meshes:
+def _made(meshes: list[tuple[str, Stamp, Mesh]]) -> Meshes:
     roots: dict[str, int] = {"": 0}
     trees: dict[str, _Tree] = {}
+    places: dict[str, tuple[Stamp, int]] = {}
     triangles = []
     nodes = count = 0
-    for value, mesh in meshes:
+    for value, stamp, mesh in meshes:
         tree = hierarchy.build(mesh.corners.min(axis=1).astype(float), mesh.corners.max(axis=1).astype(float), IN_LEAF)
         roots[value] = hierarchy.FIRST + nodes
-        trees[value] = _Tree(tree, count)
+        trees[value], places[value] = _Tree(tree, count), (stamp, count)
         triangles.append(_texels(mesh, tree.order, count))
         nodes, count = nodes + len(tree.beyond), count + len(mesh.corners)
-    return Meshes(roots, trees, _rows(triangles))
+    return Meshes(roots, trees, places, _rows(triangles))
 
 
 @lru_cache(maxsize=_MOST_SEEN)

@@ -130,6 +130,30 @@ def test_a_slider_of_a_mesh_compiles_nothing_and_a_bad_file_leaves_the_picture_s
     np.testing.assert_array_equal(renderer.read_rgb8(), picture)
 
 
+def _renders_as_traced_anew(renderer: Renderer, scene: Scene) -> None:
+    assert renderer.render(scene, 0.0, SIZE).traced
+    shown = renderer.radiance()
+    renderer.hit_map.forget()
+    renderer.render(scene, 0.0, SIZE)
+    np.testing.assert_array_equal(shown, renderer.radiance())
+
+
+def test_a_mesh_whose_file_changes_is_shown_anew(renderer: Renderer, tmp_path: Path) -> None:
+    """As pictures are, be the scene the same."""
+    for around, along in ((8, 4), (24, 12), (5, 3)):
+        path = globe(tmp_path / "a.obj", around, along)
+        _renders_as_traced_anew(renderer, _scene("kerr", kind="mesh", file=str(path)))
+
+
+def test_a_mesh_behind_one_of_another_file_keeps_its_looks(renderer: Renderer, tmp_path: Path) -> None:
+    """Hits number its triangles behind those of the first: 547 pixels had the colours of others."""
+    first, other = globe(tmp_path / "a.obj", 8, 4), globe(tmp_path / "b.obj", 24, 12)
+    scene = _scene("kerr", kind="mesh", size=1.0)
+    scene = scene.with_values({"things.second.kind": "mesh", "things.second.x": 2.0, "things.second.y": -3.0, "things.second.size": 3.0})
+    for path in (first, other):
+        _renders_as_traced_anew(renderer, scene.with_values({"things.moon.file": str(path)}))
+
+
 def test_a_mesh_under_a_moving_camera_is_where_an_exact_map_has_it_but_for_its_outline(renderer: Renderer) -> None:
     """Ways are looked at within 0.4 of a pixel there. What differs lies at the outline, be it of an image narrower than a pixel, so that no part is lost."""
     scene, shown = presets.load(["knot_behind_a_hole"], {"rays.edges": 1}), []
