@@ -274,7 +274,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     if (number > 0) do {
         Node node = fetch_node(meeting_nodes, number);
         bool met = meets_box(piece, node, 1.0);
-        near = met && is_leaf(node) && meets_ball(piece, node);
+        near = met && is_leaf(node) && (!tells_apart(held(node) & 31) || meets_ball(piece, node));  // what is round about fills most of its box
 #if MEETINGS_BY_DISTANCE && !RAYS_LIGHT_TRAVEL
         int kind = held(node) & 31, index = held(node) >> 5;
         if (near && tells_distance(kind)) near = abs(distance_to(kind, index, x)) <= distance(x, y) + 2.0 * stray.off + overstep(1.0, x);
