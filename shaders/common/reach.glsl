@@ -103,6 +103,9 @@ uint balls_about(vec3 middle, float room) {
 // The balls to which the way from a to b comes as near as the margin, which is `begin` at a and `end` at b, and as near as four rays may that have it between them. It
 // bows from its chord by a cubic, which rates by any parameter tell: where it still comes nearer at the chord's nearest place, by as much more as such a bow can.
 //
+// Where directions are not known, as the way turns much or falls into the hole, the margin is not what lies between rays but by how much the way may be off: a share of it
+// will not do then.
+//
 // What is asked of each ball is dear, and few are near. With the slopes s at both ends together the way is no farther from its chord's middle than (1/2 + s/4) of its
 // size, and what counts as near is no farther from the way than 0.15 s of it for what is no cubic, (1 + s)/4 for what comes nearer, and 1.4 of the widest margin.
 Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
@@ -111,6 +114,7 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     vec3 along = chord / size, before = slope_against(a.rate, along), after = slope_against(b.rate, along);
     float slopes = length(before) + length(after), rough = size * roughness(slopes);
     vec2 sides2 = vec2(longest2(begin), longest2(end));
+    bool directed = begin.least < begin.most;
     Reached found = NONE_REACHED;
     uint left = balls_about(a.x + 0.5 * chord, size * (0.75 + 0.65 * slopes) + 1.4 * max(begin.most, end.most));
     if (left != 0u) do {
@@ -125,14 +129,15 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
         float most = mix(begin.most, end.most, part);
         float room = mix(margin_towards(begin, towards), margin_towards(end, towards), part);
         float edge_bow = 0.125 * mix(sides2.x, sides2.y, part) / max(radius, 1e-20);
-        float between = radius > most ? min(room, reach_not_linear * most + edge_bow) : room;
+        bool shares = directed && radius > most;
+        float between = shares ? min(room, reach_not_linear * most + edge_bow) : room;
         float slope = dot(along + (1.0 - u) * (1.0 - 3.0 * u) * before - u * (2.0 - 3.0 * u) * after, towards);
         float nearing = u <= 0.0 ? max(slope, 0.0) : u >= 1.0 ? max(-slope, 0.0) : abs(slope);
         float misses = far - radius - rough, nearer = nearing * min(0.5 * nearing * far, 0.25 * size);
         found.near |= misses <= room ? 1u << i : 0u;
         found.between |= misses - nearer <= between ? 1u << i : 0u;
         found.hidden = far + rough + most < -ball.w ? uint(i + 1) : found.hidden;
-        found.holds = far + rough + (radius > most ? reach_not_linear * most : most) < -ball.w ? uint(i + 1) : found.holds;
+        found.holds = far + rough + (shares ? reach_not_linear * most : most) < -ball.w ? uint(i + 1) : found.holds;
         left = without_lowest(left);
     } while (left != 0u);
     return found;

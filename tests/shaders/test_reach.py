@@ -108,6 +108,15 @@ def test_nor_in_a_large_picture_whose_first_nodes_are_farther_apart(renderer: Re
     assert shown > 10_000
 
 
+def test_a_ball_that_a_hole_lies_in_is_seen_by_rays_that_fall_in(renderer: Renderer) -> None:
+    """By how much a way into the hole may be off does not shrink with what lies between rays: 75 pixels were black."""
+    view = {"camera.azimuth_deg": -57.73, "camera.inclination_deg": 153.97, "camera.distance": 10.01, "camera.fov_deg": 21.14}
+    scene = presets.load(["kerr"], {"rays.edges": 1, **view, **_at_rest("ball", 2.0522, np.array([-1.0976, 0.8643, -1.9489]))})
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    np.testing.assert_array_equal(found.met, exact.met)
+    assert 0.1 < renderer.hit_map.own_rays().mean() < 0.5
+
+
 def test_a_sphere_that_moves_before_a_resting_camera_leaves_the_exact_map_bit_for_bit(renderer: Renderer) -> None:
     scene, fresh = _ten(), Renderer(renderer.ctx)
     _traced(renderer, scene, progressive=False)
