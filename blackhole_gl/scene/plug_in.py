@@ -149,6 +149,9 @@ def read(file: Path, root: Path, slot: str, place: str) -> PlugIn[Any]:
         own = {key.rpartition(".")[2]: item for key, item in known.items()}
         for entry in ("harder_with", "milder_with"):
             _refuse_unknown_numbers(entry, getattr(traits, entry), own, place)
+        for name in traits.harder_with:
+            if name in traits.milder_with:
+                raise CatalogueError(f"{place}: milder_with: got {name!r}, which is in harder_with too; a parameter is allowed in one of them")
     if isinstance(traits, MediumTraits):
         _refuse_unknown_numbers("parts", traits.parts, known, place)
     if isinstance(traits, MediumTraits) and traits.phenomenological:

@@ -30,11 +30,6 @@ NearParts near_parts_on(NearParts before, uint balls, bool looks, int step, floa
     return found;
 }
 
-// The number of the lowest bit.
-int lowest(uint bits) {
-    return int(floatBitsToUint(float(bits & (~bits + 1u))) >> 23) - 127; // the exponent of a power of two
-}
-
 // Whether the way from a to b, a part of a step of length h, may come as near as `margin` to what lies in the ball of that number.
 bool comes_near_parts(Path a, Path b, float h, float margin, int ball) {
     float column = (float(ball) + 0.5) / float(textureSize(reach_balls, 0).x); // the nearest texel: docs/llvmpipe.md, texels
@@ -66,9 +61,9 @@ uint near_to_parts(Orbit orbit, State first, NearParts near) {
         do {
             uint left = told & ~found;
             if (left != 0u) do {
-                int ball = lowest(left);
+                int ball = lowest_bit(left);
                 if (comes_near_parts(a, b, 0.5 * h, margin, ball)) found |= 1u << ball;
-                left &= left - 1u;
+                left = without_lowest(left);
             } while (left != 0u);
             again = first_half;
             first_half = false;

@@ -32,12 +32,15 @@ step_control = "even"
 """
 
 
-WITH_SIZE = """reach = ['size']
-[parameters.size]
+SIZE = """[parameters.size]
 default = 2.0
 range = [1, 9]
 help = 'H.'
-[parameters.soft]
+"""
+
+
+WITH_SIZE = f"""reach = ['size']
+{SIZE}[parameters.soft]
 default = true
 help = 'H.'
 """
@@ -267,6 +270,8 @@ def test_a_wrong_parameter_names_file_entry_and_what_is_allowed(folders, entry, 
         ("integrator", "order = 2\nevaluations = 2\nfits = ['polar']", "fits: got .*; allowed is a list, each of it one of cartesian, mino"),
         ("integrator", "order = 2\nevaluations = 2\nfits = 'mino'", "fits: got 'mino'; allowed is a list"),
         ("integrator", "order = 0\nevaluations = 2", "order: got 0; allowed is a whole number from 1 to 20"),
+        ("ray_model", MODEL + "harder_with = ['sise']\n" + SIZE, r"harder_with: got 'sise'; .*did you mean size\?"),
+        ("ray_model", MODEL + "harder_with = ['size']\nmilder_with = ['size']\n" + SIZE, "milder_with: got 'size', which is in harder_with too"),
         ("ray_model", MODEL.replace("exact", "exakt"), r"got the entry 'exakt'; allowed are label, .*; did you mean exact\?"),
         ("ray_model", MODEL.replace("exact = true\n", ""), "the header lacks 'exact'; allowed is true or false"),
         ("ray_model", MODEL.replace("exact = true", "exact = 1"), "exact: got 1; allowed is true or false"),
