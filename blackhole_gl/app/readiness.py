@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from .. import planning
+from ..physics.space_time import is_inside
 from ..scene import Scene
 from .preparation import Preparation
 
@@ -27,8 +28,12 @@ class TracedBy:
         return cls(asked, planning.plan(drawn).scene)
 
     def stated_in(self, scene: Scene) -> Scene | None:
-        """`scene` traced in this way; None unless it is the scene asked for with another camera or hole, and of the same space-time."""
-        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked or planning.plan(scene).scene.rays.model != self.stated.rays.model:
+        """`scene` traced in this way; None unless it is the scene asked for with another camera or hole, and this way can trace it."""
+        if replace(scene, camera=self.asked.camera, hole=self.asked.hole) != self.asked:
+            return None
+        # Another model is taken for another hole or beyond the horizon, which this one may not lead round or through; else as it is cheaper there.
+        same_model = planning.plan(scene).scene.rays.model == self.stated.rays.model
+        if not same_model and (scene.hole != self.asked.hole or is_inside(scene) != is_inside(self.asked)):
             return None
         return replace(scene, rays=self.stated.rays, parameters=self.stated.parameters)
 

@@ -86,7 +86,7 @@ class Renderer(FakeRenderer):
 
 
 class Moving:
-    """A picture under a camera that a test tilts; the plan takes another integrator above 30° and above 60°."""
+    """A picture under a camera that a test tilts; the plan takes another model and integrator above 30° and above 60°."""
 
     def __init__(self, ctx, monkeypatch):
         monkeypatch.setattr(planning, "plan", lambda scene: SimpleNamespace(scene=self._resolved(scene)))
@@ -100,8 +100,8 @@ class Moving:
     def _resolved(self, scene):
         if scene.rays.integrator != "auto":
             return scene
-        integrator = ("rk4", "nystrom5", "nystrom4")[int(scene.camera.inclination_deg // 30.0)]
-        return scene.with_values({"rays.model": "kerr", "rays.integrator": integrator})
+        model, integrator = (("kerr", "rk4"), ("schwarzschild_binet", "nystrom5"), ("kerr", "nystrom4"))[int(scene.camera.inclination_deg // 30.0)]
+        return scene.with_values({"rays.model": model, "rays.integrator": integrator})
 
     def _submit(self, scene, size):
         self.work.append((planning.plan(scene).scene.rays.integrator, Future()))
@@ -161,7 +161,13 @@ def test_methods_change_to_and_fro_at_once_when_both_have_been_drawn_with(moving
 
 @pytest.mark.parametrize(
     "values",
-    [{"disk_enabled": False}, {"disk_enabled": False, "camera_inclination_deg": 40.0}, {"rays_tolerance": 0.1, "camera_inclination_deg": 40.0}],
+    [
+        {"disk_enabled": False},
+        {"disk_enabled": False, "camera_inclination_deg": 40.0},
+        {"rays_tolerance": 0.1, "camera_inclination_deg": 40.0},
+        {"hole_spin": 0.5, "camera_inclination_deg": 40.0},
+        {"camera_distance": 0.4, "camera_inclination_deg": 40.0},
+    ],
 )
 def test_another_scene_is_not_drawn_by_an_earlier_method(moving, values):
     drawn = len(moving.renderer.calls)
