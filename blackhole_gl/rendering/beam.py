@@ -13,6 +13,7 @@ import moderngl
 
 from ..physics.angular_size import picture_height_uas
 from ..scene import Scene
+from .draw import Draw
 from .inputs import FrameInputs
 from .levels import Level, draw_into, padded
 from .programs import Programs
@@ -39,6 +40,8 @@ class BeamPass:
 
     def blurred(self, inputs: FrameInputs, radiance: moderngl.Texture) -> moderngl.Texture:
         """`radiance` (a whole picture) blurred by the beam of the scene, as RGBA32F; the texture is the next call's, too."""
+        # All of them: a beam that needs no halving may need one as the camera moves, which would then wait for the program.
+        halve, blur, enlarge = (self._programs.get(f"post/beam_{name}.frag", inputs) for name in ("halve", "blur", "enlarge"))
         sigma = sigma_px(inputs.plan.scene, radiance.size[1])
         halvings = max(int(math.log2(sigma / _LEAST_SIGMA)), 0) if sigma > 0.0 else 0
         factor = 2**halvings
@@ -47,13 +50,13 @@ class BeamPass:
             for axis in _AXES:
                 margin = 0 if number else _MARGIN * factor
                 half = _halved(size, axis, margin)
-                source, size = self._drawn(inputs, "halve", f"halved {number} {axis}", source, half, source_last=_last(size), axis=axis, margin=margin)
+                source, size = self._drawn(halve, f"halved {number} {axis}", source, half, source_last=_last(size), axis=axis, margin=margin)
         widened = 5.0 * (factor**2 - 1) / 12.0 + (factor**2 / 3.0 if halvings else 0.0)
         own = math.sqrt(sigma**2 - widened) / factor
         for axis in _AXES:
-            source, size = self._drawn(inputs, "blur", f"blurred {axis}", source, size, source_last=_last(size), axis=axis, sigma=own)
+            source, size = self._drawn(blur, f"blurred {axis}", source, size, source_last=_last(size), axis=axis, sigma=own)
         for axis, larger in zip(_AXES, ((whole[0], size[1]), whole)) if halvings else ():
-            source, size = self._drawn(inputs, "enlarge", f"enlarged {axis}", source, larger, axis=axis, factor=float(factor), margin=float(_MARGIN))
+            source, size = self._drawn(enlarge, f"enlarged {axis}", source, larger, axis=axis, factor=float(factor), margin=float(_MARGIN))
         return source
 
     def release(self) -> None:
@@ -63,13 +66,12 @@ class BeamPass:
         self._levels = {}
 
     def _drawn(
-        self, inputs: FrameInputs, shader: str, name: str, source: moderngl.Texture, size: tuple[int, int], **uniforms: object
+        self, draw: Draw, name: str, source: moderngl.Texture, size: tuple[int, int], **uniforms: object
     ) -> tuple[moderngl.Texture, tuple[int, int]]:
         """The level called `name`, of `size`, drawn from `source`."""
-        draw = self._programs.get(f"post/beam_{shader}.frag", inputs)
         draw.sample({"source": source})
         draw.set(**uniforms)
-        level = self._level(name, size, size if size == inputs.size else padded(size))
+        level = self._level(name, size, size if size == draw.inputs.size else padded(size))
         draw_into(level, draw)
         return level.texture, size
 

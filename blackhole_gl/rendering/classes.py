@@ -55,6 +55,11 @@ NO_THINGS: Mapping[str, int] = {"MEETINGS": 0}
 """The switches of programs for pixels and rays that show no thing or medium, and for which none was written."""
 
 
+def seeking_nothing(plan: Plan) -> Mapping[str, int]:
+    """The switches of rays that look for no thing or medium, in a map of rays that do."""
+    return {**NO_THINGS, "NO_MEETINGS": plan.meetings}
+
+
 def own_rays(plan: Plan) -> tuple[tuple[Where, Mapping[str, int]], ...]:
     """The pixels of a refined map that are traced themselves, and the switches of what reads them."""
     return ((OWN_RAYS, NO_THINGS), (OPEN_THINGS, {})) if plan.meetings else ((OWN_RAYS, {}),)

@@ -184,6 +184,8 @@ class HalfGrid:
         fill.sample({**self._hits, "half_cells": self._made.cells.texture})
         self._ends.filter = moderngl.LINEAR, moderngl.LINEAR
         self.trace_own_rays(fill, textures, MATTER)
+        if self._made.ends is not None:
+            self._programs.get("refine_half_put.frag", inputs)  # `trace_packed` of a later picture may need it, though this may pack nothing
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
         """Draws those pixels that are `where` into `textures`, of the picture's size: `OWN_RAYS` are those left to trace that show no things."""

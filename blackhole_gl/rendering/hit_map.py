@@ -18,7 +18,7 @@ from ..planning import REACH_STEP, REFINE_STEP, Plan
 from ..shapes import Bool
 from . import half_grid, hit_texels, reach, refinement
 from .boxes import Box
-from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where
+from .classes import NO_THINGS, OPEN_THINGS, OWN_RAYS, Where, seeking_nothing
 from .draw import Draw
 from .frame_met import NOTHING_MET, FrameMet
 from .hit_texels import HitArrays
@@ -187,7 +187,7 @@ class HitMap:
             self._trace_rows(self._prepared(seeking), target, 0, inputs.size[1])
         elif fresh.changed is None:
             target.clear()
-        for switches, squares in ((seeking, fresh.seeking), ({**NO_THINGS, "NO_MEETINGS": inputs.plan.meetings}, fresh.others)):
+        for switches, squares in ((seeking, fresh.seeking), (seeking_nothing(inputs.plan), fresh.others)):
             for some in filter(len, squares):
                 self._trace_squares(self._prepared(switches), target, some)
         self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
