@@ -32,10 +32,10 @@ index = { default = 2.0, range = [1.0, 10.0], help = "n in the middle of the fis
 #if RAYS_REFRACTION_MEDIUM_EXPLOSION
 // How many widths x is from a shell whose radius wanders, u, behind its gradient.
 vec4 from_shell(vec3 x) {
-    float smoothing = 0.1 * rays_refraction_size;
-    float r = sqrt(dot(x, x) + smoothing * smoothing);
-    vec4 wandering = rays_refraction_size * rays_refraction_raggedness * waves(x / rays_refraction_grain);
-    return vec4(x / r - wandering.xyz / rays_refraction_grain, r - rays_refraction_size - wandering.w) / rays_refraction_width;
+    float smoothing = 0.1 * rays_refraction_size, along = 1.0 / rays_refraction_grain, across = 1.0 / rays_refraction_width;
+    float square = dot(x, x) + smoothing * smoothing, inverse = inversesqrt(square);
+    vec4 wandering = waves(along * x) * vec4(vec3(along), 1.0) * (rays_refraction_size * rays_refraction_raggedness);
+    return across * vec4(inverse * x - wandering.xyz, square * inverse - rays_refraction_size - wandering.w);
 }
 
 // n² = 1 + strength/(1 + u²)²
