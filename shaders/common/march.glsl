@@ -274,10 +274,12 @@ void march_on(Orbit orbit, bool seeks, inout March m) {
 Way way_of(Orbit orbit, March m) {
     Path a = ray_path(orbit, m.s), b = ray_path(orbit, m.next);
     float h = m.h;
+#if !IN_FIELD  // where there is no horizon
     if (m.fate == CAPTURED) {
         h *= part_outside(Curve(a, b, h), crossing_r_min * min(hole_horizon_size, 1.0));
         b = ray_path(orbit, march_step(orbit, m.s, h));
     }
+#endif
     return Way(a, ray_path(orbit, march_step(orbit, m.s, 0.5 * h)), b, h);
 }
 
