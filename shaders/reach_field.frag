@@ -1,6 +1,7 @@
 #version 330 core
 // Coarse rays in a field → what becomes of each, and to which balls in space it comes as near as the rays beside it are away (common/reach.glsl): the straight way
-// in, reach_steps steps within the field's sphere, of which it is looked at reach_stride at once, the straight way out. It ends on nothing.
+// in, reach_steps steps within the field's sphere, of which it is looked at reach_stride at once, the straight way out. It ends on nothing, but where all of
+// its quad are hidden.
 #defines
 #blocks
 #include "common/constants.glsl"
@@ -61,9 +62,10 @@ void main() {
         Reached found = balls_near(before, here, margin_before, margin);
         if (was_under_way) reached = reached_on(reached, found);
         steps += reach_stride;
-    } while (steps < reach_steps && any_of_quad(fate == UNRESOLVED));
+    } while (steps < reach_steps && any_of_quad(fate == UNRESOLVED) && any_of_quad(reached.hidden == 0u));
+    if (fate == UNRESOLVED && reached.hidden > 0u) fate = ESCAPED;  // what lies behind the ball is no matter
     Spot end = straight_end(here);
-    Reached found = balls_near_straight(here, end, margin, reach_margin(end));
-    if (fate != UNRESOLVED) reached = reached_on(reached, found);
+    Reached onward = balls_near_straight(reached, here, end, margin, reach_margin(end));
+    if (fate != UNRESOLVED) reached = onward;
     node = packed_node(fate, reached);
 }

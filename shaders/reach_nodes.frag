@@ -117,7 +117,8 @@ void main() {
             before = after;
         } while (++done < pieces);
         fate = under_way ? (leaves ? ESCAPED : falls ? CAPTURED : UNRESOLVED) : fate;
-    } while (++steps < reach_steps && any_of_quad(fate == UNRESOLVED));
+    } while (++steps < reach_steps && any_of_quad(fate == UNRESOLVED) && any_of_quad(reached.hidden == 0u));
+    if (fate == UNRESOLVED && reached.hidden > 0u) fate = ESCAPED;  // what lies behind the ball is no matter
 #if REACH_PARTS
     uint missed = parts.balls & ~near_to_parts(orbit, first, parts);
     reached.near &= ~missed;

@@ -143,11 +143,10 @@ Reached balls_near(Spot a, Spot b, Margin begin, Margin end) {
     return found;
 }
 
-// The same of a straight way, on which the margin grows evenly: in pieces of which each is twice as long as the one before, as all of a piece is given what there is
-// at its end. A long way out of a lens begins where rays are close together.
-Reached balls_near_straight(Spot a, Spot b, Margin begin, Margin end) {
+// With what was `reached` before, the same of a straight way, on which the margin grows evenly: in pieces of which each is twice as long as the one before, as all of a
+// piece is given what there is at its end. A long way out of a lens begins where rays are close together.
+Reached balls_near_straight(Reached reached, Spot a, Spot b, Margin begin, Margin end) {
     const int PIECES = 5;
-    Reached reached = NONE_REACHED;
     Spot before = a;
     Margin margin = begin;
     int done = 0;
@@ -158,6 +157,6 @@ Reached balls_near_straight(Spot a, Spot b, Margin begin, Margin end) {
         reached = reached_on(reached, balls_near(before, after, margin, margin_after));
         before = after;
         margin = margin_after;
-    } while (++done < PIECES);
+    } while (++done < PIECES && reached.hidden == 0u);
     return reached;
 }
