@@ -268,14 +268,22 @@ def _width(item: Field) -> int:
 
 
 def _places(kind: PlugIn) -> tuple[list[tuple[Field, int]], int]:
-    """Where in a row of `kind` each parameter's first number is, no parameter in two texels; and how long the row is, in whole texels."""
-    found, free = [], 4 * len(_motion_names(kind))
-    for item in kind.parameters.values():
-        width = _width(item)
-        if width:
-            free += -free % 4 if free % 4 + width > 4 else 0
-            found.append((item, free))
-            free += width
+    """Where in a row of `kind` each parameter's first number is, no parameter in two texels; and how long the row is, in whole texels.
+
+    Those of a surface lie by themselves, pictures last, in as few texels as hold them: a lit pixel reads them all.
+    """
+    finish = [item for item in kind.parameters.values() if _has_surface(kind) and item.key in surfaces.SURFACE]
+    others = [item for item in kind.parameters.values() if item not in finish]
+    found: list[tuple[Field, int]] = []
+    free = 4 * len(_motion_names(kind))
+    for lot in (others, sorted(finish, key=pictures.is_picture)):
+        free += -free % 4
+        for item in lot:
+            width = _width(item)
+            if width:
+                free += -free % 4 if free % 4 + width > 4 else 0
+                found.append((item, free))
+                free += width
     return found, free + -free % 4
 
 
