@@ -27,7 +27,6 @@ from .instance_numbers import Number
 from .programs import Programs
 from .ray_blocks import FreshBlocks, RayBlocks
 from .squares import Patches, Squares
-from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target
 from .things_grid import ThingsGrid
@@ -203,10 +202,10 @@ class HitMap:
     def _bind_tables(self, rays: Draw) -> None:
         """Gives the trace pass what it looks up: tables of the ray model, the things and media that rays may meet, and which pixels the rays are of."""
         plan = rays.inputs.plan
-        things = self.tables.instances.samplers(plan, rays.inputs.time) if plan.meetings else {}
+        things = self.tables.of_instances(rays.inputs) if plan.meetings else {}
         if self.known is not None:
             things = {**things, **self.known.samplers}
-        self.tables.bind(rays, chosen(plan, *RAY_SLOTS), {**things, **self._ray_blocks.samplers})
+        self.tables.bind(rays, {**things, **self._ray_blocks.samplers})
         if rays.takes("stray_seen"):
             rays.set(stray_seen=refinement.tolerances(rays.inputs)[0])
         rays.tell(meeting_reach=plan.reach)
@@ -309,14 +308,14 @@ class HitMap:
             if reached.fills and inputs.plan.meetings == 1:
                 self._bind_tables(rays)
                 filled = self._things.trace(rays, reached)
-            coarse = self._programs.get("trace.frag", inputs.in_motion(), NO_THINGS)
+            coarse = self._programs.get("trace.frag", inputs.in_motion, NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, filled)
             if filled is not None:
                 self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
             self._trace_own_rays(coarse, rays)
         else:
-            coarse = self._programs.get("trace.frag", inputs.in_motion())
+            coarse = self._programs.get("trace.frag", inputs.in_motion)
             self._bind_tables(coarse)
             self._grid.trace(coarse, None)
             self._trace_own_rays(coarse, None)

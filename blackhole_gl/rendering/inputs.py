@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import moderngl
@@ -25,6 +25,7 @@ class FrameInputs:
         offset: of the drawn part in the picture, in pixels from the bottom left, with the shift of the rays inside their pixels.
         shown: (width, height) in pixels that the picture is to be shown with; None: its own.
         start: of a part that is kept in a ring (direction_grid.py), column and row of its first pixel; pixels before that come after the last.
+        frame: the same object in all that is derived from these inputs, and in no other frame's: files are looked at once for each.
     """
 
     plan: Plan
@@ -34,6 +35,7 @@ class FrameInputs:
     offset: tuple[float, float] = (0.0, 0.0)
     shown: tuple[int, int] | None = None
     start: tuple[int, int] = (0, 0)
+    frame: object = field(default_factory=object, compare=False, repr=False)
 
     @classmethod
     def whole(
@@ -52,6 +54,7 @@ class FrameInputs:
         """The same frame by another plan."""
         return changed(self, plan=plan)
 
+    @cached_property
     def in_motion(self) -> FrameInputs:
         """The same frame by steps as long as they may be under a moving camera."""
         times = steps_in_motion(self.plan, self.picture[1])

@@ -164,31 +164,48 @@ def _shapes(named: Instances, kinds: tuple[PlugIn, ...], named_meshes: meshes.Me
     )
 
 
+@dataclass(frozen=True, eq=False)
+class _Made:
+    """Textures by their samplers' names, and what they are of."""
+
+    plan: Plan
+    time: float
+    frame: object
+    meshes: meshes.Meshes | None
+    samplers: dict[str, moderngl.Texture]
+
+
 class InstanceTables:
     """The tables of the kinds in use, that of the lamps, and the hierarchy of boxes round all instances."""
 
     def __init__(self, ctx: moderngl.Context):
         self._ctx = ctx
         self._kept: dict[str, tuple[np.ndarray, moderngl.Texture]] = {}
-        self._made: tuple[Plan, float, meshes.Meshes | None, dict[str, moderngl.Texture]] | None = None
+        self._made: _Made | None = None
         self._of_places: tuple[tuple, dict[str, np.ndarray]] | None = None  # what no camera changes, and what it depends on
 
-    def samplers(self, plan: Plan, time: float) -> dict[str, moderngl.Texture]:
-        """Sampler's name → table, as the scene of `plan` has them at scene time `time`."""
-        found = meshes.of(plan.scene)
-        if self._made is None or self._made[0] is not plan or self._made[1] != time and anything_moves(plan) or self._made[2] is not found:
-            files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
-            tables = {**self._tables(plan, time, files), "lamps_table": lamps.rows(plan, time)}
-            if found:
-                tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
-            self._made = plan, time, found, {name: self._texture(name, table) for name, table in tables.items()}
-        return self._made[3]
+    def samplers(self, plan: Plan, time: float, frame: object = None) -> dict[str, moderngl.Texture]:
+        """Sampler's name → table, as the scene of `plan` has them at scene time `time`; files are looked at once in a `frame` of `FrameInputs`."""
+        made = self._made
+        same = made is not None and made.plan is plan and made.time == time
+        if made is None or not same or frame is None or made.frame is not frame:
+            found = meshes.of(plan.scene)
+            stands = made is not None and made.meshes is found and (same or made.plan is plan and not anything_moves(plan))
+            made = self._made = _Made(plan, time, frame, found, made.samplers if made is not None and stands else self._textures(plan, time, found))
+        return made.samplers
 
     def release(self) -> None:
         """Gives the GL objects back."""
         for _, texture in self._kept.values():
             texture.release()
         self._kept, self._made = {}, None
+
+    def _textures(self, plan: Plan, time: float, found: meshes.Meshes | None) -> dict[str, moderngl.Texture]:
+        files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
+        tables = {**self._tables(plan, time, files), "lamps_table": lamps.rows(plan, time)}
+        if found:
+            tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
+        return {name: self._texture(name, table) for name, table in tables.items()}
 
     def _tables(self, plan: Plan, time: float, files: FrozenMap[str, int]) -> dict[str, np.ndarray]:
         """Sampler's name → values of the kinds' tables, and of the hierarchy: the same objects until anything of them is another."""

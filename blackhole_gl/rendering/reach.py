@@ -17,7 +17,6 @@ from .classes import EVERYWHERE, Where, drawn
 from .inputs import FrameInputs
 from .programs import Programs
 from .squares import Squares
-from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target, plain_texture
 
@@ -176,9 +175,9 @@ class Reach:
             if found:
                 self._mark(inputs, level, found[0])
             if parted and step == REFINE_STEP:
-                nodes, things = self._programs.get("reach_nodes.frag", inputs, PARTS), self._tables.instances.samplers(inputs.plan, inputs.time)
+                nodes, things = self._programs.get("reach_nodes.frag", inputs, PARTS), self._tables.of_instances(inputs)
                 nodes.set(reach_parted=parted, **balls_held)
-            self._tables.bind(nodes, chosen(inputs.plan, *RAY_SLOTS), {**table, **things})
+            self._tables.bind(nodes, {**table, **things})
             nodes.set(reach_step=float(step), reach_first=tuple(map(float, level.box[:2])))
             nodes.set(reach_not_linear=_BY_ITSELF if exact else _not_linear(inputs, step))
             frame = level.nodes.frame
@@ -285,7 +284,7 @@ def _not_linear(inputs: FrameInputs, step: int) -> float:
 def _longer_steps(inputs: FrameInputs) -> tuple[FrameInputs, float]:
     """`inputs` by steps as long as they may be in motion, and that length in r_s, unless one is longer than a piece: pieces are no longer for it."""
     length = inputs.plan.step_length * steps_in_motion(inputs.plan, inputs.picture[1])
-    return (inputs.in_motion(), length) if length <= _PIECE else (inputs, inputs.plan.step_length)
+    return (inputs.in_motion, length) if length <= _PIECE else (inputs, inputs.plan.step_length)
 
 
 def gathered(balls: Float[np.ndarray, "balls 4"], most: int) -> Float[np.ndarray, "balls 4"]:

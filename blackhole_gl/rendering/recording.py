@@ -21,7 +21,6 @@ from .hit_map import HitMap
 from .hit_texels import HitArrays
 from .inputs import FrameInputs
 from .programs import Programs
-from .structure import RAY_SLOTS, chosen
 from .tables import Tables
 from .target import Target
 
@@ -143,7 +142,7 @@ class Recorder:
         source = self._ctx.texture((width, height), 4, listed.tobytes(), dtype="f4")
         target = Target.of(self._ctx, [self._ctx.texture((width, height), 4, dtype="f4") for _ in range(2)])
         draw = self._programs.get("record.frag", FrameInputs.whole(plan, 0.0, (width, height)))
-        self._tables.bind(draw, chosen(plan, *RAY_SLOTS))
+        self._tables.bind(draw)
         draw.set(listed_rays=0)
         source.use(0)
         target.frame.use()

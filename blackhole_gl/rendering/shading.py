@@ -173,9 +173,9 @@ class ShadePass:
         sky = self._programs.get("shade_sky.frag", inputs, hit_map.switches())
         parameters = tuple(sorted((key, value) for key, value in scene.parameters.items() if key.startswith("sky.")))
         skies = chosen(inputs.plan, "sky")
-        pictures = self._tables.pictures.of(skies, scene)
+        self._tables.of_slots(inputs, SHADE_SLOTS)
         time = inputs.time if any(kind.traits.changes for kind in skies) else 0.0
-        key = (sky.serial, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made if pictures else 0, time)
+        key = (sky.serial, inputs.plan.turn_deg, inputs.finer, scene.sky, parameters, self._tables.pictures.made, time)
         before, self._sky_sorting = self._sky_sorting, self._sorted.key if self._sorted is not None else None
         changed = self._sorted.changed if self._sorted is not None and self._sorted.key != before and self._sorted.before == before else None
         stale = before != self._sky_sorting and changed is None
@@ -242,12 +242,12 @@ class ShadePass:
 
     def _samplers(self, inputs: FrameInputs, hit_map: HitMap) -> Samplers:
         scene = inputs.plan.scene
-        declared = self._tables.of(chosen(inputs.plan, *SHADE_SLOTS), scene)
+        declared = self._tables.of_slots(inputs, SHADE_SLOTS)
         found: dict[str, moderngl.Texture | moderngl.TextureArray] = {**hit_map.samplers(), **declared}
         if inputs.plan.meetings:
-            found |= {**hit_map.tables.instances.samplers(inputs.plan, inputs.time), **self._tables.pictures.of_instances(scene)}
+            found |= hit_map.tables.of_instances(inputs)
         if scene.media:
-            found |= self._tables.of(chosen(inputs.plan, *RAY_SLOTS), scene)
+            found |= self._tables.of_slots(inputs, RAY_SLOTS)
         return {**found, **self._stretches, "temperature_profile": self._temperatures.of(inputs.plan)}
 
     def _pieces_of(self, hit_map: HitMap, where: Where) -> Sequence[Box] | Patches | None:

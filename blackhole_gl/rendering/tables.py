@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 import moderngl
 import numpy as np
 
+from ..planning import Plan
 from ..scene import Scene
 from ..scene.catalogue import CatalogueError, PlugIn
 from ..scene.tables import Table
 from . import mip_levels
 from .draw import Draw, Samplers
+from .inputs import FrameInputs
 from .instances import InstanceTables
 from .pictures import Pictures
+from .structure import RAY_SLOTS, chosen
 
 RAY_UNIT = 7
 """The first texture unit of what rays are traced with, above those of all other samplers."""
+
+_Texture = moderngl.Texture | moderngl.TextureArray
 
 _DTYPES = {np.dtype(np.uint8): "f1", np.dtype(np.float16): "f2", np.dtype(np.float32): "f4"}
 _FILTERS = {
@@ -43,6 +48,7 @@ class Tables:
         self.instances = InstanceTables(ctx)
         self.made = 0
         self._kept: dict[Table, tuple[tuple[Any, ...], moderngl.Texture]] = {}
+        self._found: tuple[object, Plan, dict[tuple[str, ...], Mapping[str, _Texture]]] | None = None  # in the frame of that name
 
     def of(self, plug_ins: Iterable[PlugIn], scene: Scene) -> dict[str, moderngl.Texture]:
         """Sampler's name → texture of all tables that `plug_ins` declare and all pictures that their parameters name, as `scene` wants them.
@@ -55,9 +61,18 @@ class Tables:
         made = {table.name: self._texture(table, scene) for plug_in in plug_ins for table in plug_in.tables}
         return {**made, **self.pictures.of(plug_ins, scene)}
 
-    def bind(self, rays: Draw, plug_ins: Iterable[PlugIn], others: Samplers = MappingProxyType({})) -> None:
-        """Gives the trace pass `rays` the tables and pictures of `plug_ins`, and `others` by their samplers' names."""
-        rays.sample({**self.of(plug_ins, rays.inputs.plan.scene), **others}, RAY_UNIT)
+    def of_slots(self, inputs: FrameInputs, slots: tuple[str, ...]) -> Mapping[str, _Texture]:
+        """The same of the plug-ins of `slots` that `inputs` use, looked for once in a frame."""
+        return self._once(inputs, slots, lambda: self.of(chosen(inputs.plan, *slots), inputs.plan.scene))
+
+    def of_instances(self, inputs: FrameInputs) -> Mapping[str, _Texture]:
+        """Sampler's name → table of the things and media of `inputs`, and of the lamps; and the array of their pictures."""
+        tables = self.instances.samplers(inputs.plan, inputs.time, inputs.frame)
+        return {**tables, **self._once(inputs, ("pictures",), lambda: self.pictures.of_instances(inputs.plan.scene))}
+
+    def bind(self, rays: Draw, others: Samplers = MappingProxyType({})) -> None:
+        """Gives the trace pass `rays` the tables and pictures of its plug-ins, and `others` by their samplers' names."""
+        rays.sample({**self.of_slots(rays.inputs, RAY_SLOTS), **others}, RAY_UNIT)
 
     def release(self) -> None:
         """Gives the GL objects back."""
@@ -65,7 +80,16 @@ class Tables:
         self.instances.release()
         for _, texture in self._kept.values():
             texture.release()
-        self._kept = {}
+        self._kept, self._found = {}, None
+
+    def _once(self, inputs: FrameInputs, what: tuple[str, ...], look: Callable[[], Mapping[str, _Texture]]) -> Mapping[str, _Texture]:
+        """`what` a frame's plan uses, by its samplers' names: a file is looked at once, so that no texture is made anew within a frame."""
+        if self._found is None or self._found[0] is not inputs.frame or self._found[1] is not inputs.plan:
+            self._found = inputs.frame, inputs.plan, {}
+        found = self._found[2]
+        if what not in found:
+            found[what] = look()
+        return found[what]
 
     def _texture(self, table: Table, scene: Scene) -> moderngl.Texture:
         arguments = table.arguments(scene)
