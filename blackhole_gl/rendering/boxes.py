@@ -5,7 +5,7 @@ Software renderers look at the depth of every pixel that a draw covers, be its s
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -15,6 +15,9 @@ Box = tuple[int, int, int, int]
 """x, y, width and height of a part of the picture, in pixels from the bottom left."""
 
 NOWHERE: Box = (0, 0, 0, 0)
+
+WORTH_A_DRAW = 1 << 14
+"""Pixels that a draw of its own has to spare: that many are left out by the depth test in the time in which one is prepared."""
 
 
 def box_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], side: int = 1) -> Box:
@@ -36,6 +39,22 @@ def bands_of(picked: Bool[np.ndarray, "rows columns"], size: tuple[int, int], si
             left, right = columns.find(1), columns.rfind(1) + 1
             x, y = side * left, side * low
             yield x, y, min(side * right, size[0]) - x, min(side * high, size[1]) - y
+
+
+def few_of(bands: Iterable[Box]) -> list[Box]:
+    """Those `bands` that follow each other as one where apart they spare fewer pixels than a draw is worth, if a depth test leaves them out."""
+    found: list[Box] = []
+    for box in bands:
+        both = joined(found[-1], box) if found else NOWHERE
+        if found and _area(both) - _area(found[-1]) - _area(box) <= WORTH_A_DRAW:
+            found[-1] = both
+        else:
+            found.append(box)
+    return found
+
+
+def _area(box: Box) -> int:
+    return box[2] * box[3]
 
 
 def boxes_of(picked: Bool[np.ndarray, "rows columns"], side: int) -> Iterator[Box]:

@@ -16,7 +16,7 @@ from ..glsl.declared import PixelClass
 from ..physics.observer import cos_sin_deg
 from ..planning import HALF_MARGIN, HALF_STEP, REFINE_STEP
 from ..shapes import Bool, Float, Int
-from .boxes import Box, bands_of
+from .boxes import Box, bands_of, few_of
 from .classes import MATTER, OPEN_THINGS, OWN_RAYS, Where, drawn
 from .draw import Draw
 from .inputs import FrameInputs
@@ -169,14 +169,14 @@ class HalfGrid:
         left = np.where(OWN_RAYS.holds(held) | OPEN_THINGS.holds(held), held, PixelClass.NEITHER.depth)
         texture.write(_parted(np.rint(255.0 * left).astype(np.uint8))[: texture.height, : texture.width].tobytes(), alignment=1)
         made.cells.frame.use()
-        cells.draw_boxes(bands_of(self._chosen, texture.size, _ALONG, _BAND // _ALONG))
+        cells.draw_boxes(few_of(bands_of(self._chosen, texture.size, _ALONG, _BAND // _ALONG)))
         self.cells = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width) * np.float32(1.0 / 255.0)
         sort = self._programs.get("refine_classes.frag", inputs)
         sort.sample({"cell_classes": texture})
         sort.set(pixels_to_cells=tuple(1.0 / (HALF_STEP * side) for side in texture.size), all_traced=0.0)
         made.sorted.clear(depth=PixelClass.NEITHER.depth)
         asked = np.abs(self.cells - PixelClass.NEITHER.depth) > 0.05
-        self._write_depth(made.sorted, sort, bands_of(asked, inputs.size, HALF_STEP, _BAND))
+        self._write_depth(made.sorted, sort, few_of(bands_of(asked, inputs.size, HALF_STEP, _BAND)))
 
     def fill(self, inputs: FrameInputs, textures: Sequence[moderngl.Texture]) -> None:
         """Writes what is interpolated into `textures`, of the picture's size."""
@@ -198,7 +198,7 @@ class HalfGrid:
         into.depth_mask = False
         rays.tell(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
-            rays.draw_boxes(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND))
+            rays.draw_boxes(few_of(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND)))
 
     def pack(self) -> RayBlocks | None:
         """The rays that are left to pixels which may show things, side by side; None where there are none."""
@@ -307,7 +307,7 @@ def _nodes_about(cells: Bool[np.ndarray, "rows columns"], size: tuple[int, int])
     """Parts of the texture of rays, of that `size`, that hold all those in and about the coarse grid's `cells`."""
     rows, columns = cells.shape
     whole = _ALONG * columns, _ALONG * rows
-    for x, y, width, height in bands_of(_about(cells) > 0, whole, _ALONG, _BAND // _ALONG):
+    for x, y, width, height in few_of(bands_of(_about(cells) > 0, whole, _ALONG, _BAND // _ALONG)):
         left, low = (place + HALF_MARGIN if place else 0 for place in (x, y))
         right, high = (end + HALF_MARGIN if end < most else full for end, most, full in ((x + width, whole[0], size[0]), (y + height, whole[1], size[1])))
         yield left, low, right - left, high - low

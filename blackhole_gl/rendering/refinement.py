@@ -12,7 +12,7 @@ import numpy as np
 from ..glsl.declared import PixelClass
 from ..planning import GRID_MARGIN, REFINE_STEP, Plan
 from ..shapes import Bool
-from .boxes import Box, bands_of
+from .boxes import Box, bands_of, few_of
 from .classes import FLAT_SKY, OPEN_THINGS, OWN_RAYS, THINGS, Where, drawn
 from .draw import Draw
 from .hit_texels import textures
@@ -169,7 +169,7 @@ class CoarseGrid:
         if self._cells is None:
             return [(0, 0, *size)]
         if where not in self._bands:
-            self._bands[where] = list(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
+            self._bands[where] = few_of(bands_of(where.holds(self._cells), size, REFINE_STEP, _BAND))
         return self._bands[where]
 
     def pieces(self, where: Where) -> Sequence[Box] | Patches:
@@ -203,7 +203,7 @@ class CoarseGrid:
         """Parts of the picture of the last `trace` that hold all cells which one thing fills."""
         if self._cells is None:
             raise RuntimeError("what cells show is known right after `trace` alone")
-        return list(bands_of(np.abs(self._cells - PixelClass.SOLID_THING.depth) < 0.05, self.classes.size, REFINE_STEP, _BAND))
+        return few_of(bands_of(np.abs(self._cells - PixelClass.SOLID_THING.depth) < 0.05, self.classes.size, REFINE_STEP, _BAND))
 
     def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
@@ -281,7 +281,7 @@ class CoarseGrid:
         else:  # most of a picture is flat sky, and a clear takes next to nothing
             made.sorted.clear(depth=PixelClass.FLAT_SKY.depth)
             others = np.abs(self._cells - PixelClass.FLAT_SKY.depth) > 0.05
-            classes.draw_boxes(bands_of(others, inputs.size, REFINE_STEP, _BAND))
+            classes.draw_boxes(few_of(bands_of(others, inputs.size, REFINE_STEP, _BAND)))
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from blackhole_gl.rendering.boxes import bands_of, box_of
+from blackhole_gl.rendering.boxes import WORTH_A_DRAW, bands_of, box_of, few_of, joined
 
 SIDE = 4
 
@@ -29,3 +29,11 @@ def test_bands_hold_what_is_picked_and_none_is_larger_than_it_has_to_be(height: 
 
 def test_nothing_picked_has_no_band() -> None:
     assert list(bands_of(np.zeros((5, 5), bool), (20, 20), SIDE, 2)) == []
+
+
+def test_bands_that_spare_little_by_themselves_are_drawn_as_one() -> None:
+    near, beside, far = (40, 0, 120, 80), (48, 80, 120, 80), (280, 160, 120, 80)
+    both = joined(near, beside)
+    assert few_of([near, beside, far]) == [both, far] and few_of([]) == []
+    _, _, width, height = joined(both, far)
+    assert width * height - both[2] * both[3] - far[2] * far[3] > WORTH_A_DRAW
