@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from functools import cached_property
 
 
 class Fate(IntEnum):
@@ -32,12 +33,12 @@ class PixelClass(IntEnum):
     THING = 9
     """May show a thing or a medium, and may need anything; with a ray of its own, as `OWN_RAY`, which shows none."""
 
-    @property
+    @cached_property
     def depth(self) -> float:
         """What stands in the depth buffer."""
         return 0.1 * self + 0.05
 
-    @property
+    @cached_property
     def depth_beyond(self) -> float:
         """Between this class and those farther away."""
         return 0.1 * (self + 1)

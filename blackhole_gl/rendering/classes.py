@@ -14,7 +14,7 @@ from ..planning import Plan
 from .draw import Draw
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Where:
     """Those pixels whose depth compares with `depth`: ``>`` where it is nearer, ``<`` where it is farther away, ``1`` always.
 

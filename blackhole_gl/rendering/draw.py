@@ -119,9 +119,9 @@ class Draw:
             triangle.render(moderngl.TRIANGLES, vertices=3)
         triangle.ctx.scissor = None
 
-    def draw_squares(self, squares: Squares) -> None:
+    def draw_squares(self, *squares: Squares) -> None:
         """Draws `squares` of the bound target alone."""
-        self._draw_points(squares.points)
+        self._draw_points(np.concatenate([some.points for some in squares]))
 
     def draw_patches(self, patches: Patches) -> None:
         """Draws `patches` of the bound target alone."""

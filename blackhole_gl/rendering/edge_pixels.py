@@ -159,8 +159,9 @@ def shown_in_cells(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Of each cell of the coarse grid in `marks` (height, width), which begin with one: whether a ray of any of its pixels meets a thing or a medium, and
     whether one escapes, each bool (rows, columns). Cells without rays meet some."""
     height, width = marks.shape
-    flags = marks & np.uint16(EdgeMark.MET << 8) | marks & ~(marks >> 1) & np.uint16(Fate.ESCAPED)
-    flags = np.pad(flags, ((0, -height % REFINE_STEP), (0, -width % REFINE_STEP)))
+    flags = marks & (_MET | ~(marks >> 1) & np.uint16(Fate.ESCAPED))
+    if height % REFINE_STEP or width % REFINE_STEP:
+        flags = np.pad(flags, ((0, -height % REFINE_STEP), (0, -width % REFINE_STEP)))
     rows = reduce(np.bitwise_or, (flags[k::REFINE_STEP] for k in range(REFINE_STEP)))
     cells = reduce(np.bitwise_or, (rows[:, k::REFINE_STEP] for k in range(REFINE_STEP)))
     return cells > np.uint16(Fate.ESCAPED), cells & np.uint16(Fate.ESCAPED) > 0

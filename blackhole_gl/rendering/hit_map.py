@@ -187,8 +187,8 @@ class HitMap:
         elif fresh.changed is None:
             target.clear()
         for switches, squares in ((seeking, fresh.seeking), (seeking_nothing(inputs.plan), fresh.others)):
-            for some in filter(len, squares):
-                self._trace_squares(self._prepared(switches), target, some)
+            if any(map(len, squares)):
+                self._trace_squares(self._prepared(switches), target, *squares)
         self._changed = None if fresh.changed is None else (self.generation, fresh.changed)
         self._key, self.generation = None, next(_GENERATIONS)
         self.traces += 1
@@ -288,14 +288,15 @@ class HitMap:
         if end == height:
             self._refined_for, self._sharp_rows = None, 0
 
-    def _trace_squares(self, rays: Draw, target: moderngl.Framebuffer, squares: Squares) -> None:
+    def _trace_squares(self, rays: Draw, target: moderngl.Framebuffer, *squares: Squares) -> None:
         """Exact rays for `squares`; the rest of the map stays as it is."""
         target.use()
         rays.set(ray_grid=(1.0, 0.0, 0.0))
-        rays.draw_squares(squares)
-        self.marched += len(squares) * squares.side**2
+        rays.draw_squares(*squares)
+        self.marched += sum(len(some) * some.side**2 for some in squares)
         if not self.is_sharp:
-            self._grid.give_things(rays.inputs, squares, self._sharp_rows)
+            for some in squares:
+                self._grid.give_things(rays.inputs, some, self._sharp_rows)
 
     def _trace_refined(self, rays: Draw) -> None:
         inputs = rays.inputs

@@ -246,7 +246,7 @@ def _parted(plan: Plan, numbers: Int[np.ndarray, " balls"]) -> int:
     if plan.model.traits.field or plan.meetings != 1:
         return 0
     apart = [number for number, kind in enumerate(met.kinds(plan.scene, "thing")) if kind.traits.tells_apart]
-    return int(np.sum(1 << np.flatnonzero((numbers > 0) & np.isin((numbers - 1) % 32, apart))))
+    return sum(1 << ball for ball, number in enumerate(numbers.tolist()) if number > 0 and (number - 1) % 32 in apart)
 
 
 def steps(height: int) -> list[int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import reduce
+from functools import lru_cache, reduce
 
 import moderngl
 import numpy as np
@@ -16,6 +16,8 @@ TOGETHER = 4
 """Pixels along each axis that software renderers shade together, whichever of them are asked for."""
 
 _POINT = 12  # bytes
+
+_SHORT = 4  # sides of blocks over which slices are the quicker way
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,19 +117,27 @@ def _cut(cells: Bool[np.ndarray, "rows columns"], rows: int, columns: int, cell:
 
 
 def _of_blocks(of_two: np.ufunc, cells: Bool[np.ndarray, "rows columns"], side: int) -> np.ndarray:
-    """What `of_two` makes of each block of `side`² cells; row by row and column by column, which is the quicker way over short sides."""
+    """What `of_two` makes of each block of `side`² cells."""
+    if side > _SHORT:
+        rows = of_two.reduce(cells.reshape(len(cells) // side, side, cells.shape[1]), axis=1)
+        return of_two.reduce(rows.reshape(len(rows), rows.shape[1] // side, side), axis=2)
     rows = reduce(of_two, (cells[k::side] for k in range(side)))
     return reduce(of_two, (rows[:, k::side] for k in range(side)))
 
 
 def _points(held: np.ndarray, side: int, size: tuple[int, int]) -> Float[np.ndarray, "squares 3"]:
     """The squares of `side` pixels that are `held`, none of which an edge of the picture cuts, as shaders/fullscreen.vert takes them."""
-    row, column = np.divmod(np.flatnonzero(held), held.shape[1])
-    points = np.empty((len(row), 3), np.float32)
-    points[:, 0] = (2 * column + 1) * (side / size[0]) - 1.0
-    points[:, 1] = (2 * row + 1) * (side / size[1]) - 1.0
-    points[:, 2] = side
-    return points
+    return _all_points(held.shape, side, size).take(np.flatnonzero(held), axis=0)
+
+
+@lru_cache(maxsize=8)
+def _all_points(shape: tuple[int, int], side: int, size: tuple[int, int]) -> Float[np.ndarray, "squares 3"]:
+    """The same where all of so many rows and columns are held."""
+    points = np.empty((*shape, 3), np.float32)
+    points[..., 0] = (2 * np.arange(shape[1]) + 1) * (side / size[0]) - 1.0
+    points[..., 1] = ((2 * np.arange(shape[0]) + 1) * (side / size[1]) - 1.0)[:, None]
+    points[..., 2] = side
+    return points.reshape(-1, 3)
 
 
 class SquareBuffer:
