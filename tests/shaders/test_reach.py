@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from blackhole_gl.planning import plan
-from blackhole_gl.rendering import edge_pixels, reach
+from blackhole_gl.rendering import reach
 from blackhole_gl.rendering.edge_blocks import EdgeBlocks
+from blackhole_gl.rendering.edge_marks import Edges
 from blackhole_gl.rendering.frame import Renderer
 from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.rendering.inputs import FrameInputs
@@ -196,12 +197,12 @@ def test_rays_at_edges_beside_no_thing_need_not_look_for_any(renderer: Renderer,
     At 1280×720 0.3 to 0.6 % of the pixels at edges differ by a hundredth of their light; most of them at the shadow's edge, where images crowd.
     """
     all_look, scene = Renderer(renderer.ctx), _ten(**{"rays.edges": 2})
-    told, different, edges = edge_pixels.beside_things, 0, 0
+    told, different, edges = Edges.beside_things, 0, 0
     renderer.hit_map.forget()
     for turn in range(0, 100, 10):
         view, pictures = scene.with_values({"camera.azimuth_deg": 3.6 * turn, "camera.inclination_deg": 60.0 + 0.3 * turn}), []
-        for drawn_by, rule in ((renderer, told), (all_look, lambda marks, pixels: np.ones(len(pixels), bool))):
-            monkeypatch.setattr(edge_pixels, "beside_things", rule)
+        for drawn_by, rule in ((renderer, told), (all_look, lambda found: np.ones(len(found.pixels), bool))):
+            monkeypatch.setattr(Edges, "beside_things", rule)
             drawn_by.render(view, 0.0, SIZE, progressive=True)
             pictures.append(drawn_by.radiance())
         difference, light = np.abs(pictures[0] - pictures[1]).max(axis=-1), np.maximum(*pictures).max(axis=-1)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blackhole_gl.glsl.declared import EdgeMark, Fate
-from blackhole_gl.rendering.edge_pixels import at_edges, at_plain_outlines, beside_things, shown_in_cells
+from blackhole_gl.rendering.edge_marks import MarkedSquares, shown_in_cells
 
 SKY, SHADOW = int(Fate.ESCAPED), int(Fate.CAPTURED)
 NO_RAY = 0xFFFF
@@ -35,12 +35,13 @@ def by_pixel(marks: np.ndarray, corners: bool = False) -> list[tuple[int, int]]:
 @pytest.mark.parametrize("seed", range(20))
 def test_edges_are_found_wherever_they_are(seed: int) -> None:
     random = np.random.default_rng(seed)
-    height, width = random.integers(1, 12, 2)
+    height, width = random.integers(1, 28, 2)
     patches = random.choice(MARKS, (height, width))
     few = np.where(random.random((height, width)) < 0.15, patches, random.choice((SKY, NO_RAY, SKY | EdgeMark.VEILED))).astype(np.uint16)
     for marks in (patches.astype(np.uint16), few):
         for corners in (False, True):
-            assert [tuple(pixel) for pixel in at_edges(marks, corners=corners).tolist()] == by_pixel(marks, corners)
+            found = MarkedSquares.of(marks).edges(corners=corners)
+            assert sorted(map(tuple, found.pixels[:, ::-1].tolist())) == [pixel[::-1] for pixel in by_pixel(marks, corners)]
 
 
 @pytest.mark.parametrize("slope", np.linspace(-1.0, 1.0, 9))
@@ -49,7 +50,7 @@ def test_a_straight_edge_behind_the_direct_picture_is_found_wherever_it_cuts_a_p
     y, x = np.mgrid[0:40, 0:40]
     level = slope * (x - 19.5) + 0.3 - (y - 19.5)
     marks = (np.where(level > 0.0, SKY, SHADOW) | EdgeMark.VEILED).astype(np.uint16)
-    found = {tuple(pixel) for pixel in at_edges(marks).tolist()}
+    found = {tuple(pixel) for pixel in MarkedSquares.of(marks).edges().pixels.tolist()}
     cut = np.abs(level) < 0.5 * (1.0 + abs(slope)) - 1e-9  # of a pixel's corners some lie on either side
     assert cut.sum() > 30 and {tuple(pixel) for pixel in np.argwhere(cut)[:, ::-1].tolist()} <= found
 
@@ -58,11 +59,11 @@ def test_a_straight_edge_behind_the_direct_picture_is_found_wherever_it_cuts_a_p
 def test_pixels_beside_things_are_told(seed: int) -> None:
     """What is met lies in the upper seven bits less one; of a pixel without a ray all bits are set, and it shows nothing."""
     random = np.random.default_rng(seed)
-    marks = random.choice((*MARKS, SKY | 1 << 15), (9, 14), p=(0.9, *[0.1 / 10] * 10)).astype(np.uint16)
-    pixels = np.stack(np.divmod(np.arange(marks.size), 14)[::-1], axis=-1)
+    marks = random.choice((*MARKS, SKY | 1 << 15), (9, 44), p=(0.9, *[0.1 / 10] * 10)).astype(np.uint16)
+    edges = MarkedSquares.of(marks).edges()
     shows = (marks != NO_RAY) & (marks >> 8 & 127 != 0)
-    expected = [bool(shows[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].any()) for x, y in pixels]
-    assert beside_things(marks, pixels).tolist() == expected and 0 < sum(expected) < marks.size
+    expected = [bool(shows[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2].any()) for x, y in edges.pixels]
+    assert edges.beside_things().tolist() == expected and 0 < sum(expected) < len(expected)
 
 
 def plain_by_pixel(marks: np.ndarray, x: int, y: int) -> bool:
@@ -89,22 +90,22 @@ def test_plain_outlines_are_told(seed: int) -> None:
     met = SKY - Fate.ESCAPED + Fate.MET | 3 << 8
     marks = np.kron(random.choice((SKY, met, met + (1 << 8), NO_RAY, SHADOW), (5, 7), p=(0.4, 0.3, 0.1, 0.1, 0.1)), np.ones((3, 4), int)).astype(np.uint16)
     marks = np.where(random.random(marks.shape) < 0.02, met, marks).astype(np.uint16)
-    pixels = at_edges(marks)
-    found = at_plain_outlines(marks, pixels)
-    assert found.tolist() == [plain_by_pixel(marks, *pixel) for pixel in pixels.tolist()]
-    assert 0 < np.count_nonzero(found) < len(pixels)
+    edges = MarkedSquares.of(marks).edges()
+    found = edges.at_plain_outlines()
+    assert found.tolist() == [plain_by_pixel(marks, *pixel) for pixel in edges.pixels.tolist()]
+    assert 0 < np.count_nonzero(found) < len(found)
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 5), (5, 0)])
 def test_where_nothing_has_rays_there_are_no_edges(shape: tuple[int, int]) -> None:
     """A camera that looks away from all that bends light."""
     marks = np.zeros(shape, np.uint16)
-    found = at_edges(marks)
-    assert found.shape == (0, 2) and beside_things(marks, found).shape == (0,)
+    found = MarkedSquares.of(marks).edges()
+    assert found.pixels.shape == (0, 2) and found.beside_things().shape == found.at_plain_outlines().shape == (0,)
 
 
 def test_a_picture_of_one_kind_has_no_edges() -> None:
-    assert at_edges(np.full((9, 16), SKY, np.uint16)).shape == (0, 2)
+    assert MarkedSquares.of(np.full((9, 16), SKY, np.uint16)).edges().pixels.shape == (0, 2)
 
 
 @pytest.mark.parametrize("size", [(8, 12), (7, 10), (1, 1), (0, 0)])
