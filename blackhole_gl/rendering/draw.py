@@ -25,12 +25,16 @@ class Compiled:
 
     Attributes:
         serial: a number that no other program of this process has, for the keys of what was drawn by it.
-        squares: points at what the buffer of squares holds.
+        squares: points at what `points` hold.
+        blocks: the buffers of the uniform blocks.
+        points: the buffer of squares.
     """
 
     serial: int
     triangle: moderngl.VertexArray
     squares: moderngl.VertexArray
+    blocks: UniformBuffers
+    points: SquareBuffer
 
     @cached_property
     def members(self) -> dict[str, Any]:
@@ -66,8 +70,6 @@ class Draw:
 
     compiled: Compiled
     inputs: FrameInputs
-    _buffers: UniformBuffers
-    _squares: SquareBuffer
 
     @property
     def serial(self) -> int:
@@ -130,7 +132,7 @@ class Draw:
 
     def _draw_points(self, points: Float[np.ndarray, "squares 3"]) -> None:
         self._bind()
-        self._squares.draw(self.compiled.squares, points)
+        self.compiled.points.draw(self.compiled.squares, points)
 
     def draw_mesh(self, columns: int, rows: int) -> None:
         """Draws a mesh, by a program whose vertex shader places the two triangles of each of its quads."""
@@ -143,4 +145,4 @@ class Draw:
         self.compiled.triangle.render(moderngl.POINTS, vertices=count)
 
     def _bind(self) -> None:
-        self._buffers.bind(self.inputs, self.compiled.members)
+        self.compiled.blocks.bind(self.inputs, self.compiled.members)

@@ -83,17 +83,18 @@ class EdgeBlocks:
         """The blocks `picked` of a map of blocks of `side`² rays, which is `all_new`, with all of them picked, or holds the others already."""
         if all_new and self.seeking.all() and len(self.pixels) > _MOST_OF_MAP * self.size[0] * self.size[1]:
             return FreshBlocks((), (), None)
-        seeking, others = (self._squares(picked & kind, side) for kind in (self.seeking, ~self.seeking))
-        changed = None if all_new else self._groups(_numbers_of(self.places[picked] // _together(side)), side)
-        return FreshBlocks(seeking, others, changed)
-
-    def _squares(self, picked: Bool[np.ndarray, " pixels"], side: int) -> tuple[Squares, ...]:
-        """The squares of the map that hold the blocks `picked`. Blocks that are shaded together lie in one square where all look for the same, else each has a
-        square of its own."""
         group = _numbers_of(self.places // _together(side))
         seek = np.bincount(group, self.seeking)
-        mixed = picked & (seek > 0.0)[group] & (seek < np.bincount(group))[group]
-        return self._groups(group[picked & ~mixed], side), Squares.of(self.places[mixed], side, self._size_of_map(side))
+        mixed = ((seek > 0.0) & (seek < np.bincount(group)))[group]
+        seeking, others = (self._squares(picked & kind, group, mixed, side) for kind in (self.seeking, ~self.seeking))
+        return FreshBlocks(seeking, others, None if all_new else self._groups(group[picked], side))
+
+    def _squares(
+        self, picked: Bool[np.ndarray, " pixels"], group: Int[np.ndarray, " pixels"], mixed: Bool[np.ndarray, " pixels"], side: int
+    ) -> tuple[Squares, ...]:
+        """The squares of the map that hold the blocks `picked`. Blocks of a `group`, which are shaded together, lie in one square unless they are `mixed`, as
+        not all look for the same: then each has a square of its own."""
+        return self._groups(group[picked & ~mixed], side), Squares.of(self.places[picked & mixed], side, self._size_of_map(side))
 
     def _groups(self, numbers: Int[np.ndarray, " groups"], side: int) -> Squares:
         """The squares of all that is shaded together, by the numbers that `_numbers_of` gives, each once."""

@@ -56,7 +56,7 @@ class MarkedSquares:
         rows, columns = -(-height // _SIDE), -(-width // _SIDE)
         whole = np.full((rows * _SIDE + 2 * BESIDE, columns * _SIDE + 2 * BESIDE), _NO_RAY)
         whole[BESIDE : BESIDE + height, BESIDE : BESIDE + width] = marks
-        row, column = np.nonzero(_may_hold_edges(whole[BESIDE:-BESIDE, BESIDE:-BESIDE]))
+        row, column = np.nonzero(_may_hold_edges(whole))
         if len(row):
             _repeat_border(whole, width, height)
         down, across = whole.strides
@@ -143,9 +143,10 @@ def shown_in_cells(marks: Int[np.ndarray, "height width"]) -> tuple[Bool[np.ndar
     return cells > np.uint16(Fate.ESCAPED), cells & np.uint16(Fate.ESCAPED) > 0
 
 
-def _may_hold_edges(marks: Int[np.ndarray, "height width"]) -> Bool[np.ndarray, "rows columns"]:
-    """Which squares of a picture of whole ones have rays, and those about them and their own differ."""
-    least, most = _in_blocks(np.minimum, marks, _SIDE), _in_blocks(np.maximum, marks + np.uint16(1), _SIDE)  # by which no ray counts for nothing
+def _may_hold_edges(whole: Int[np.ndarray, "height width"]) -> Bool[np.ndarray, "rows columns"]:
+    """Which squares of a picture of whole ones, with what is about it, have rays, and those about them and their own differ."""
+    marks = whole[BESIDE:-BESIDE]
+    least, most = _in_blocks(np.minimum, marks, _SIDE, BESIDE), _in_blocks(np.maximum, marks + np.uint16(1), _SIDE, BESIDE)  # of no ray that is nothing
     differ = _of_nine(np.maximum, most, np.uint16(0)) - np.uint16(1) > _of_nine(np.minimum, least, _NO_RAY)
     return differ & (least != _NO_RAY)
 
@@ -157,9 +158,10 @@ def _repeat_border(whole: Int[np.ndarray, "height width"], width: int, height: i
     whole[:BESIDE], whole[top : top + BESIDE] = whole[BESIDE], whole[top - 1]
 
 
-def _in_blocks(of_two: np.ufunc, values: np.ndarray, side: int) -> np.ndarray:
-    """What `of_two` makes of each block of `side`²."""
-    rows = reduce(of_two, (values[k::side] for k in range(side)))
+def _in_blocks(of_two: np.ufunc, values: np.ndarray, side: int, border: int = 0) -> np.ndarray:
+    """What `of_two` makes of each block of `side`², but for so many columns on the left and on the right."""
+    height, width = values.shape
+    rows = of_two.reduce(values.reshape(height // side, side, width), axis=1)[:, border : width - border]
     return reduce(of_two, (rows[:, k::side] for k in range(side)))
 
 

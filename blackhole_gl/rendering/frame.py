@@ -437,13 +437,11 @@ class Renderer:
         return _drawn(self._radiance)
 
     def _light_key(self, inputs: FrameInputs, media: MediaApart | None, motion: Motion) -> tuple | None:
-        if not kept_light.stands(inputs.plan):
+        if not (kept_light.stands(inputs.plan) and (media is None or kept_light.stands(media.inputs.plan))):
             return None
         files = self._tables.pictures.stamps(chosen(inputs.plan, "sky", "disk_layer", "ray_model"), inputs.plan.scene)
         own = self.hit_map.generation, self.hit_map.is_sharp, motion, self.programs.compiled, files
-        key = kept_light.key(inputs, *own)
-        of_media = kept_light.key(media.inputs, media.step) if media is not None else ()
-        return None if key is None or of_media is None else (key, of_media)
+        return *own, kept_light.key(inputs), None if media is None else (kept_light.key(media.inputs), media.step)
 
     def _shaded(self, inputs: FrameInputs, hit_map: HitMap, media: MediaApart | None = None) -> Target:
         """The radiance that the hits of `hit_map` have in the scene, with `media` that are marched apart."""

@@ -100,6 +100,7 @@ class HalfGrid:
         self._kept: _Made | None = None
         self._into: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
         self.cells = np.empty((0, 0), np.float32)
+        self._held: dict[Where, np.ndarray] = {}  # which of them are
         self._rays = 0  # of the last picture
         self._chosen = np.empty((0, 0), bool)  # of the coarse grid's cells
         self._with_nodes = np.empty((0, 0), bool)  # those of them that may show things
@@ -117,7 +118,8 @@ class HalfGrid:
         """
         left = own | things
         together = left if first else left & (_about(left) >= _TOGETHER)
-        with_rays, asked = np.count_nonzero(_about(together)), np.count_nonzero(together)
+        about = _about(together) > 0
+        with_rays, asked = np.count_nonzero(about), np.count_nonzero(together)
         if not asked or not first and with_rays > _MOST_RAYS * asked:
             return False
         made = self._targets(inputs.size, count)
@@ -127,7 +129,7 @@ class HalfGrid:
         made.rays.frame.clear()
         marks = self._programs.get("refine_half_marks.frag", inputs)
         marks.sample({"chosen": made.chosen})
-        self._ray_boxes = list(_nodes_about(together, made.depth.size))
+        self._ray_boxes = list(_nodes_in(about, made.depth.size))
         made.marks.clear(depth=_UNASKED)
         self._write_depth(made.marks, marks, self._ray_boxes)
         return True
@@ -171,6 +173,7 @@ class HalfGrid:
         made.cells.frame.use()
         cells.draw_boxes(few_of(bands_of(self._chosen, texture.size, _ALONG, _BAND // _ALONG)))
         self.cells = np.frombuffer(texture.read(alignment=1), np.uint8).reshape(texture.height, texture.width) * np.float32(1.0 / 255.0)
+        self._held = {}
         sort = self._programs.get("refine_classes.frag", inputs)
         sort.sample({"cell_classes": texture})
         sort.set(pixels_to_cells=tuple(1.0 / (HALF_STEP * side) for side in texture.size), all_traced=0.0)
@@ -198,12 +201,12 @@ class HalfGrid:
         into.depth_mask = False
         rays.tell(ray_grid=(1.0, 0.0, 0.0))
         with drawn(self._ctx, rays, where):
-            rays.draw_boxes(few_of(bands_of(where.holds(self.cells), self._made.classes.size, HALF_STEP, _BAND)))
+            rays.draw_boxes(few_of(bands_of(self._that_are(where), self._made.classes.size, HALF_STEP, _BAND)))
 
     def pack(self) -> RayBlocks | None:
         """The rays that are left to pixels which may show things, side by side; None where there are none."""
         nodes = _parted(self._with_nodes)[: self.cells.shape[0], : self.cells.shape[1]]
-        return self._made.packed.blocks if self._made.packed.choose(OPEN_THINGS.holds(self.cells), nodes) else None
+        return self._made.packed.blocks if self._made.packed.choose(self._that_are(OPEN_THINGS), nodes) else None
 
     def trace_packed(self, rays: Draw, textures: Sequence[moderngl.Texture]) -> None:
         """Traces those, and puts what they meet into `textures`, of the picture's size; `rays` are of the blocks that `pack` has told."""
@@ -216,13 +219,12 @@ class HalfGrid:
     @property
     def marched(self) -> int:
         """Rays of the last picture, a few too many, and of its pixels that these did not spare."""
-        left = OWN_RAYS.holds(self.cells) | OPEN_THINGS.holds(self.cells)
-        return self._rays + int(np.count_nonzero(left)) * HALF_STEP**2
+        return self._rays + sum(int(np.count_nonzero(self._that_are(where))) for where in (OWN_RAYS, OPEN_THINGS)) * HALF_STEP**2
 
     def interpolated(self) -> Bool[np.ndarray, "height width"]:
         """Which pixels of the last picture are, row 0 at the bottom."""
         width, height = self._made.classes.size
-        filled = MATTER.holds(self.cells) & ~OWN_RAYS.holds(self.cells)
+        filled = self._that_are(MATTER) & ~self._that_are(OWN_RAYS)
         return np.kron(filled, np.ones((HALF_STEP, HALF_STEP), bool))[:height, :width]
 
     def release(self) -> None:
@@ -232,6 +234,12 @@ class HalfGrid:
         if self._kept is not None:
             self._kept.release()
         self._into, self._kept = {}, None
+
+    def _that_are(self, where: Where) -> Bool[np.ndarray, "rows columns"]:
+        """Which of `cells` are."""
+        if where not in self._held:
+            self._held[where] = where.holds(self.cells)
+        return self._held[where]
 
     @property
     def _made(self) -> _Made:
@@ -300,14 +308,14 @@ def narrow_balls(inputs: FrameInputs, balls: Float[np.ndarray, "balls 4"], bodie
 
 def _parted(cells: np.ndarray) -> np.ndarray:
     """The same values of the smaller cells that each of the coarse grid's `cells` (rows, columns) is made of."""
-    return cells.repeat(_ALONG, axis=0).repeat(_ALONG, axis=1)
+    return cells.repeat(_ALONG, axis=1).repeat(_ALONG, axis=0)
 
 
-def _nodes_about(cells: Bool[np.ndarray, "rows columns"], size: tuple[int, int]) -> Iterator[Box]:
-    """Parts of the texture of rays, of that `size`, that hold all those in and about the coarse grid's `cells`."""
+def _nodes_in(cells: Bool[np.ndarray, "rows columns"], size: tuple[int, int]) -> Iterator[Box]:
+    """Parts of the texture of rays, of that `size`, that hold all those in the coarse grid's `cells`."""
     rows, columns = cells.shape
     whole = _ALONG * columns, _ALONG * rows
-    for x, y, width, height in few_of(bands_of(_about(cells) > 0, whole, _ALONG, _BAND // _ALONG)):
+    for x, y, width, height in few_of(bands_of(cells, whole, _ALONG, _BAND // _ALONG)):
         left, low = (place + HALF_MARGIN if place else 0 for place in (x, y))
         right, high = (end + HALF_MARGIN if end < most else full for end, most, full in ((x + width, whole[0], size[0]), (y + height, whole[1], size[1])))
         yield left, low, right - left, high - low

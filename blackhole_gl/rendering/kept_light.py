@@ -15,6 +15,6 @@ def stands(plan: Plan) -> bool:
     return plan.scene.post.view == "picture" and not moves
 
 
-def key(inputs: FrameInputs, *rest: object) -> tuple | None:
-    """Of all that a picture's light depends on, with the `rest` that is not in its `inputs`; None where it has to be shaded anew at another time."""
-    return (changed(inputs, time=0.0), *rest) if stands(inputs.plan) else None
+def key(inputs: FrameInputs) -> FrameInputs:
+    """All of `inputs` that a picture's light depends on where it `stands`."""
+    return changed(inputs, time=0.0)

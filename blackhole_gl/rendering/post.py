@@ -261,9 +261,8 @@ class PostPass:
         right border if it goes round."""
         down = self._programs.get("post/bloom_down.frag", inputs)
         down.sample({"source": radiance})
-        down.set(**_places("source", radiance, radiance.size, GLOW_SHRINKS), threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
-        if last is not None:
-            down.set(source_last=last)
+        part = _part(radiance, radiance.size) if last is None else (*_texel(radiance.size), *last)
+        down.set(source_part=part, shrinks=GLOW_SHRINKS, threshold=inputs.plan.scene.post.bloom_threshold, centre_weight=0.0)
         if not beyond:
             down.set(source_start=start)
             draw_into(level, down)
@@ -282,16 +281,17 @@ class PostPass:
         """The glow of what the first level holds."""
         post, down = inputs.plan.scene.post, self._programs.get("post/bloom_down.frag", inputs)
         source, size = self._down[0].texture, self._down[0].size
+        down.set(shrinks=2, threshold=0.0, centre_weight=4.0)
         for level in self._down[1:]:
             down.sample({"source": source})
-            down.set(**_places("source", source, size, 2), threshold=0.0, centre_weight=4.0)
+            down.set(source_part=_part(source, size))
             draw_into(level, down)
             source, size = level.texture, level.size
         up = self._programs.get("post/bloom_up.frag", inputs)
-        share = post.bloom_spread / (0.4 + post.bloom_spread)
+        up.set(spread=post.bloom_spread / (0.4 + post.bloom_spread))
         for own, level in zip(reversed(self._down[:-1]), self._up):
             up.sample({"wider": source, "level": own.texture})
-            up.set(**_places("wider", source, size, 0.5), spread=share)
+            up.set(wider_part=_part(source, size))
             draw_into(level, up)
             source, size = level.texture, level.size
         return source
@@ -317,14 +317,10 @@ def _lasts(before: FrameInputs, now: FrameInputs) -> bool:
     return abs(now.time - before.time) <= GLOW_LASTS and (before.size, before.plan) == (now.size, now.plan)
 
 
-def _places(name: str, source: moderngl.Texture, size: tuple[int, int], ratio: float) -> dict[str, tuple[float, float]]:
-    """Uniforms by which a pixel of a target, `ratio` of those of `source` wide, finds its place in the lower left `size` pixels of that."""
+def _part(source: moderngl.Texture, size: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Of a `source` whose light lies in its lower left `size` pixels: 1 over its own, and the last place that holds light."""
     u, v = _texel(source.size)
-    return {
-        f"{name}_scale": (u * ratio, v * ratio),
-        f"{name}_last": (u * (size[0] - 0.5), v * (size[1] - 0.5)),
-        f"{name}_texel": (u, v),
-    }
+    return u, v, u * (size[0] - 0.5), v * (size[1] - 0.5)
 
 
 def _nearest(texture: moderngl.Texture) -> moderngl.Texture:

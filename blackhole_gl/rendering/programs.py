@@ -109,7 +109,7 @@ class Programs:
         ready = self._ready.get(recipe)
         if ready is None:
             ready = self._made_ready(recipe)
-        return Draw(ready, inputs, self._buffers, self._squares)
+        return Draw(ready, inputs)
 
     def _made_ready(self, recipe: tuple) -> Compiled:
         if recipe not in self._composed:
@@ -213,7 +213,7 @@ class Programs:
             if isinstance(member, moderngl.UniformBlock):
                 member.binding = block.binding
         self.compiled += 1
-        return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []), self._squares.array(program))
+        return Compiled(next(_SERIALS), self.ctx.vertex_array(program, []), self._squares.array(program), self._buffers, self._squares)
 
     def _times(self) -> tuple:
         return tuple((file, os.stat(file).st_mtime_ns) for root in self.roots for file in _shader_files(root))

@@ -161,7 +161,7 @@ class Reach:
         traced, length = (inputs, inputs.plan.step_length) if exact else _longer_steps(inputs)
         nodes = self._programs.get("reach_field.frag" if inputs.plan.model.traits.field else "reach_nodes.frag", traced, ALONE)
         seen = balls[:, 3] > 0.0  # lamps may have no size
-        few = gathered(balls[seen], MOST_BALLS) if np.any(seen) else _NOWHERE
+        few = gathered(balls[seen], MOST_BALLS) if seen.any() else _NOWHERE
         each_its_own = np.count_nonzero(seen) == len(few)
         own, filled = (numbers[seen], fills[seen]) if each_its_own else (np.zeros(len(few), int), np.zeros(len(few), bool))
         table = {"reach_balls": self._table(few, own, filled)}
@@ -188,7 +188,7 @@ class Reach:
             self._judge(inputs, level, found, len(few))
             found = level.cells.textures
         cells, cell_balls = made.levels[REFINE_STEP].cells.textures
-        return Reached(cells, cell_balls, table["reach_balls"], bool(np.any(filled)), each_its_own)
+        return Reached(cells, cell_balls, table["reach_balls"], bool(filled.any()), each_its_own)
 
     def _mark(self, inputs: FrameInputs, level: _Level, found_first: moderngl.Texture) -> None:
         """Marks the nodes of the cells in those that were found first."""

@@ -8,22 +8,21 @@
 #blocks
 
 uniform sampler2D source;
-uniform vec2 source_scale;    // from a pixel of the target to its place in the source
+uniform vec4 source_part;     // 1 / size of the source, and the last place in it that holds light: it may be larger than what lies in it
 uniform vec2 source_start;    // the place there that the target's lower left corner has
-uniform vec2 source_last;     // the last place that holds light: the source may be larger than what lies in it
-uniform vec2 source_texel;    // 1 / size of the source
+uniform float shrinks;        // pixels of the source to one of the target: a power of two
 uniform float centre_weight;
 uniform float threshold;      // radiance below which nothing glows; 0 in all steps but the first
 
 out vec4 colour;
 
 vec3 tap(vec2 place) {
-    return textureLod(source, min(place, source_last), 0.0).rgb;
+    return textureLod(source, min(place, source_part.zw), 0.0).rgb;
 }
 
 void main() {
-    vec2 place = source_start + gl_FragCoord.xy * source_scale;
-    vec2 d = source_texel;
+    vec2 d = source_part.xy;
+    vec2 place = source_start + gl_FragCoord.xy * (shrinks * d);
     vec3 sum = centre_weight * tap(place)
              + tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y));
     vec3 mean = sum / (centre_weight + 4.0);

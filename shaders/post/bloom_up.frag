@@ -6,20 +6,18 @@
 
 uniform sampler2D wider;     // the next smaller level, already accumulated
 uniform sampler2D level;     // this level on the way down
-uniform vec2 wider_scale;    // from a pixel of the target to its place in `wider`
-uniform vec2 wider_last;     // the last place there that holds light
-uniform vec2 wider_texel;    // 1 / size of `wider`
+uniform vec4 wider_part;     // 1 / size of `wider`, and the last place in it that holds light
 uniform float spread;        // share of the wider glow, 0…1
 
 out vec4 colour;
 
 vec3 tap(vec2 place) {
-    return textureLod(wider, min(place, wider_last), 0.0).rgb;
+    return textureLod(wider, min(place, wider_part.zw), 0.0).rgb;
 }
 
 void main() {
-    vec2 place = gl_FragCoord.xy * wider_scale;
-    vec2 d = 0.5 * wider_texel; // four bilinear taps at half a texel make the tent (1 2 1)/4 in each direction
+    vec2 d = 0.5 * wider_part.xy; // four bilinear taps at half a texel make the tent (1 2 1)/4 in each direction
+    vec2 place = gl_FragCoord.xy * d; // a pixel of the target is as wide
     vec3 tent = 0.25 * (tap(place + d) + tap(place - d) + tap(place + vec2(d.x, -d.y)) + tap(place + vec2(-d.x, d.y)));
     vec3 own = texelFetch(level, ivec2(gl_FragCoord.xy), 0).rgb;
     colour = vec4(mix(own, tent, spread), 1.0);
