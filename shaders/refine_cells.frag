@@ -74,7 +74,7 @@ void main() {
     const bool filled = false;
 #endif
     trusted = trusted && !things;
-    cell_out = trusted ? cell | (disk ? 256u : 0u) : things ? 0u : CELL_WITHOUT_THINGS;
+    cell_out = trusted ? cell | (disk ? 256u : 0u) : filled ? CELL_FILLED : things ? 0u : CELL_WITHOUT_THINGS;
     bool flat_sky = fate == uint(ESCAPED) && (any & NODE_DIRECTION_CURVES) == 0u;
     int shared_class = disk ? PIXEL_MATTER : flat_sky ? PIXEL_FLAT_SKY : fate == uint(ESCAPED) ? PIXEL_SKY : PIXEL_NEITHER;
     class_out = class_depth(trusted ? shared_class : filled ? PIXEL_SOLID_THING : things ? PIXEL_THING : PIXEL_OWN_RAY);

@@ -12,5 +12,5 @@ uniform float all_traced;       // 1 where every pixel now has a ray of its own,
 void main() {
     float found = textureLod(cell_classes, gl_FragCoord.xy * pixels_to_cells, 0.0).r;
     bool is_thing = found > class_depth(PIXEL_SOLID_THING) - 0.05;
-    gl_FragDepth = all_traced > 0.0 && !is_thing ? min(found, 1.0 - found) : found;
+    gl_FragDepth = all_traced == 0.0 ? found : is_thing ? class_depth(PIXEL_THING) : min(found, 1.0 - found);
 }

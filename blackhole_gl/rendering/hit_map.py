@@ -82,6 +82,7 @@ class HitMap:
         self._half = half_grid.HalfGrid(ctx, programs)
         self._halved_by: set[int] = set()  # programs that have told of pixels interpolated so
         self._halved = False  # whether the last refined map has interpolated pixels of its own
+        self._fills = False  # whether one thing may fill cells of it
         self._last: FrameInputs | None = None
         self._refined_for: tuple | None = None  # what a map that is not sharp depends on beside its key
         self._sharp_rows = 0
@@ -262,19 +263,30 @@ class HitMap:
         """The textures that common/hit_map_read.glsl reads, by name."""
         plan = self._traced.plan
         found = dict(zip(hit_texels.names(plan.orders, plan.meetings, plan.times), self.textures))
-        return {**found, **self._ray_blocks.samplers, **({} if self.is_sharp else self._grid.samplers())}
+        refined = {} if self.is_sharp else self._grid.samplers()
+        filled = self._things.samplers() if self._fills and not self.is_sharp else {}
+        return {**found, **self._ray_blocks.samplers, **refined, **filled}
 
     def tell_blocks(self, draw: Draw) -> None:
         """Has a program that draws with `samplers` know which pixels the map's rays are of."""
         self._ray_blocks.tell(draw)
 
-    def switches(self) -> dict[str, int]:
+    def switches(self) -> Mapping[str, int]:
         """The switches that shaders which read the map are to be composed with."""
-        return {"HIT_MAP_REFINED": int(not self.is_sharp)}
+        return AS_SHARP if self.is_sharp else {"HIT_MAP_REFINED": 1, **(refinement.FILLED if self._fills else {})}
 
-    def switches_where_flat(self) -> dict[str, int] | None:
+    def switches_where_flat(self) -> Mapping[str, int] | None:
         """The same for directions in flat cells alone (shaders/refine_classes.frag), for which less is read; None where there are none."""
         return None if self.is_sharp else {"HIT_MAP_REFINED": 2}
+
+    def switches_where_filled(self) -> Mapping[str, int] | None:
+        """The same for pixels of cells that one thing fills; None where none does."""
+        return None if self.is_sharp or not self._fills else {"HIT_MAP_REFINED": 3, **refinement.FILLED}
+
+    @property
+    def filled(self) -> Patches:
+        """Just those cells."""
+        return self._grid.filled
 
     def _trace_rows(self, rays: Draw, target: moderngl.Framebuffer, first: int, end: int) -> None:
         """Exact rays for the rows `first` ≤ y < `end`; the map is sharp after the last."""
@@ -312,10 +324,10 @@ class HitMap:
             coarse = self._programs.get("trace.frag", inputs.in_motion, NO_THINGS)
             self._bind_tables(coarse)
             self._grid.trace(coarse, reached.cells, filled)
-            if filled is not None:
-                self._things.fill(inputs, self.textures, self._grid.classes, self._grid.filled_bands())
+            self._fills = filled is not None
             self._trace_own_rays(coarse, rays)
         else:
+            self._fills = False
             coarse = self._programs.get("trace.frag", inputs.in_motion)
             self._bind_tables(coarse)
             self._grid.trace(coarse, None)

@@ -32,7 +32,8 @@ _BEYOND_DISK = 1.25
 _BAND = 64 // REFINE_STEP
 
 # Sides in pixels of the squares in which pixels of one kind are drawn: of things, which lie beyond flat sky, the depth test spares none of that, and of things'
-# cells it does not know which show any; else it knows all.
+# cells it does not know which show any; else it knows all. Of cells that one thing fills it knows none.
+_FILLED_SIDES = REFINE_STEP, 8 * REFINE_STEP
 _PATCHES = {FLAT_SKY: (2 * REFINE_STEP, 8 * REFINE_STEP), THINGS: (REFINE_STEP, 8 * REFINE_STEP), OPEN_THINGS: (REFINE_STEP, 8 * REFINE_STEP)}
 
 # Share of the cells let pass by the depth test that need what is drawn in them up to which they are drawn in squares, which themselves take a twentieth more.
@@ -81,6 +82,8 @@ class CoarseGrid:
         self._bands: dict[Where, Sequence[Box]] = {}  # that were asked for
         self._pieces: dict[Where, Sequence[Box] | Patches] = {}  # the same
         self._seen: dict[Where, np.ndarray] = {}
+        self._solid = np.empty((0, 0), bool)  # cells that one thing fills
+        self._filled: Patches | None = None  # the same, once asked for
         self._cells: np.ndarray | None = None  # depth by what the pixels of each cell need; None once it is not the same for all of a cell's
 
     @property
@@ -125,8 +128,9 @@ class CoarseGrid:
         self._make_nodes(inputs, made)
         self._judge_cells(inputs, made, reached, filled)
         classes = made.cells.textures[1]
-        self._bands, self._pieces, self._seen = {}, {}, {}
+        self._bands, self._pieces, self._seen, self._filled = {}, {}, {}, None
         self._cells = np.frombuffer(classes.read(alignment=1), np.uint8).reshape(classes.height, classes.width) * np.float32(1.0 / 255.0)
+        self._solid = np.abs(self._cells - PixelClass.SOLID_THING.depth) < 0.05
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
@@ -173,7 +177,8 @@ class CoarseGrid:
         return self._bands[where]
 
     def pieces(self, where: Where) -> Sequence[Box] | Patches:
-        """The same, as squares where boxes hold much that needs nothing, as `see` has told or as it is of another kind; no pixel lies in two pieces."""
+        """The same, as squares where boxes hold much that needs nothing, as `see` has told or as it is of another kind; no pixel lies in two pieces. Those of
+        `THINGS` need not hold what `filled` does."""
         if self._cells is None or where not in _PATCHES:
             return self.bands(where)
         if where not in self._pieces:
@@ -182,11 +187,25 @@ class CoarseGrid:
 
     def _picked(self, where: Where, cells: np.ndarray) -> Sequence[Box] | Patches:
         held = where.holds(cells)
+        if where == THINGS:
+            held &= ~self._solid
         if where in self._seen:
             held &= self._seen[where]
         if np.count_nonzero(held) > _WORTH_SQUARES * np.count_nonzero(where.passed_by(cells)):
             return self.bands(where)
         return Patches.picked(held, REFINE_STEP, _PATCHES[where], self.classes.size)
+
+    @property
+    def filled(self) -> Patches:
+        """Just those cells that one thing fills. Where there are none, one that shows no thing: what is drawn by the depth of `THINGS` leaves it alone, but its
+        program is compiled to the end, which takes a draw (docs/llvmpipe.md)."""
+        if self._filled is None:
+            cells = self._solid
+            if self._cells is not None and not cells.any():
+                cells = np.zeros(cells.shape, bool)
+                cells.flat[np.argmin(self._cells)] = np.min(self._cells) < PixelClass.FLAT_SKY.depth_beyond
+            self._filled = Patches.picked(cells, REFINE_STEP, _FILLED_SIDES, self.classes.size, exactly=True)
+        return self._filled
 
     def see(self, box: Box, seen: Mapping[Where, Bool[np.ndarray, "rows columns"]]) -> None:
         """Takes what rays have told of the cells in a `box` of the picture: in which of those `where` the class says so anything needs what is drawn there."""
@@ -199,27 +218,24 @@ class CoarseGrid:
             self._seen[where] = np.ones(self._cells.shape, bool)
             self._seen[where][y : y + rows, x : x + columns] = needed
 
-    def filled_bands(self) -> Sequence[Box]:
-        """Parts of the picture of the last `trace` that hold all cells which one thing fills."""
-        if self._cells is None:
-            raise RuntimeError("what cells show is known right after `trace` alone")
-        return few_of(bands_of(np.abs(self._cells - PixelClass.SOLID_THING.depth) < 0.05, self.classes.size, REFINE_STEP, _BAND))
-
     def give_own_rays(self, inputs: FrameInputs, first: int, end: int) -> None:
         """Marks the cells of the picture's rows `first` ≤ y < `end` as traced pixel by pixel; `first` begins a row of cells."""
         made, self._cells = self._made, None
         cells = made.cells.texture
         rows = -(-end // REFINE_STEP) - first // REFINE_STEP
         cells.write(bytes(2 * cells.width * rows), (0, first // REFINE_STEP, cells.width, rows), alignment=1)
+        self._solid[first // REFINE_STEP : first // REFINE_STEP + rows], self._filled = False, None
         self._sort_pixels(inputs, made, first, end, all_traced=True)
 
     def give_things(self, inputs: FrameInputs, squares: Squares, sharp_rows: int) -> None:
         """Marks `squares` as traced pixel by pixel and as ones that may show a thing; of the rows below `sharp_rows` every pixel is traced."""
         made, self._cells = self._made, None
+        changed = squares.mask(inputs.size, REFINE_STEP)
         for texture, value in zip(made.cells.textures, (0, round(255.0 * PixelClass.THING.depth))):
             cells = np.frombuffer(texture.read(alignment=1), np.uint16 if value == 0 else np.uint8).reshape(texture.height, texture.width).copy()
-            cells[squares.mask(inputs.size, REFINE_STEP)] = value
+            cells[changed] = value
             texture.write(cells.tobytes(), alignment=1)
+        self._solid[changed], self._filled = False, None
         self._sort_pixels(inputs, made, 0, inputs.size[1], all_traced=False)
         if sharp_rows:
             self._sort_pixels(inputs, made, 0, sharp_rows, all_traced=True)

@@ -94,11 +94,11 @@ class ShadePass:
         ctx.enable(moderngl.BLEND)
         if inputs.plan.shows_disk:
             switches, behind = (_STRETCHES, _SECOND_OUTPUT) if apart else (NO_THINGS, moderngl.SRC_ALPHA)
-            self._draw_matter(inputs, hit_map, MATTER, {**hit_map.switches(), **switches}, behind)
+            self._draw_matter(inputs, hit_map, MATTER, {**hit_map.switches(), **switches}, behind, self._pieces_of(hit_map, MATTER))
         if apart:
             self._draw_media(inputs, hit_map, None if media is None or media.exact else self.coarse_transfer.shown)
         if inputs.plan.meetings:
-            self._draw_matter(inputs, hit_map, THINGS, AS_SHARP, _SECOND_OUTPUT)
+            self._draw_things(inputs, hit_map)
         ctx.disable(moderngl.DEPTH_TEST | moderngl.BLEND)
         ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA  # with a second output set nothing can be drawn into several targets, blending or not
         ctx.depth_func = "<"
@@ -125,14 +125,25 @@ class ShadePass:
         self._ctx.disable(moderngl.DEPTH_TEST)
         self._ctx.depth_func = "<"
 
-    def _draw_matter(self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: Mapping[str, int], behind: int) -> None:
+    def _draw_matter(
+        self, inputs: FrameInputs, hit_map: HitMap, where: Where, switches: Mapping[str, int], behind: int, pieces: Sequence[Box] | Patches | None
+    ) -> None:
         """The disk, things and media, and what they let through of the sky `behind` them: of all colours alike, or of each its own.
 
         Alpha becomes the share of the sky's light that is left, where stars may be.
         """
         self._ctx.blend_func = moderngl.ONE, behind, moderngl.ZERO, moderngl.SRC_ALPHA  # type: ignore[assignment]  # moderngl's stubs know of two
         matter = self._prepared("shade_matter.frag", inputs, hit_map, switches)
-        self._draw_classes(matter, where, self._pieces_of(hit_map, where))
+        self._draw_classes(matter, where, pieces)
+
+    def _draw_things(self, inputs: FrameInputs, hit_map: HitMap) -> None:
+        """Things, and media that the hit map knows. One that fills cells hides what is behind."""
+        filled = hit_map.switches_where_filled()
+        self._draw_matter(inputs, hit_map, THINGS if filled is None else OPEN_THINGS, AS_SHARP, _SECOND_OUTPUT, self._pieces_of(hit_map, THINGS))
+        if filled is not None:
+            self._ctx.disable(moderngl.BLEND)
+            self._draw_classes(self._prepared("shade_matter.frag", inputs, hit_map, filled), THINGS, hit_map.filled)
+            self._ctx.enable(moderngl.BLEND)
 
     def _draw_media(self, inputs: FrameInputs, hit_map: HitMap, shown: Sequence[Box] | None) -> None:
         """The media where no disk is seen, before all else: in what is `shown` of them alone, where that is known."""

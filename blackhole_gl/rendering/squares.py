@@ -95,9 +95,12 @@ class Patches:
     boxes: tuple[Box, ...]
 
     @classmethod
-    def picked(cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, int], size: tuple[int, int]) -> Patches:
+    def picked(
+        cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, int], size: tuple[int, int], *, exactly: bool = False
+    ) -> Patches:
         """Those of a picture of `size` that hold all of its `cells`, of `cell` pixels each way, that are picked: squares of the smaller of two `sides` which
-        hold any, and one of the larger, which is a multiple of it, in the place of those that it is full of."""
+        hold any, and one of the larger, which is a multiple of it, in the place of those that it is full of. `exactly`: and no others, if the smaller side is
+        that of a cell."""
         small, large = (side // cell for side in sides)
         columns, rows = (side // sides[0] * small for side in size)
         left = np.zeros((rows + -rows % large, columns + -columns % large), bool)
@@ -105,15 +108,24 @@ class Patches:
         full = _of_blocks(np.logical_and, left, large)
         left &= ~full.repeat(large, axis=0).repeat(large, axis=1)
         points = np.concatenate([_points(_of_blocks(np.logical_or, left, small), sides[0], size), _points(full, sides[1], size)])
-        return cls(points, tuple(_cut(cells, rows, columns, cell, size)))
+        return cls(points, tuple(_cut(cells, rows, columns, cell, size, exactly)))
 
 
-def _cut(cells: Bool[np.ndarray, "rows columns"], rows: int, columns: int, cell: int, size: tuple[int, int]) -> Iterator[Box]:
+def _cut(cells: Bool[np.ndarray, "rows columns"], rows: int, columns: int, cell: int, size: tuple[int, int], exactly: bool) -> Iterator[Box]:
     """What holds the cells that are picked beyond the first `rows` and `columns`."""
     for first, part in ((columns, cells[:, columns:]), (0, cells[:, :columns] & (np.arange(len(cells)) >= rows)[:, None])):
-        if part.any():
-            x, y, width, height = box_of(part, (size[0] - first * cell, size[1]), cell)
+        for piece in _together(part) if exactly else [part] if part.any() else []:
+            x, y, width, height = box_of(piece, (size[0] - first * cell, size[1]), cell)
             yield first * cell + x, y, width, height
+
+
+def _together(cells: Bool[np.ndarray, "rows columns"]) -> Iterator[Bool[np.ndarray, "rows columns"]]:
+    """Those of each row that lie together."""
+    for row in np.flatnonzero(cells.any(axis=1)):
+        for left, right in np.flatnonzero(np.diff(cells[row].astype(np.int8), prepend=0, append=0)).reshape(-1, 2):
+            piece = np.zeros(cells.shape, bool)
+            piece[row, left:right] = True
+            yield piece
 
 
 def _of_blocks(of_two: np.ufunc, cells: Bool[np.ndarray, "rows columns"], side: int) -> np.ndarray:

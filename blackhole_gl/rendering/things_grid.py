@@ -1,4 +1,4 @@
-"""A moving camera's things: coarse rays that meet them, which cells between these one thing fills, and what the pixels of those meet, interpolated.
+"""A moving camera's things: coarse rays that meet them, and which cells between these one thing fills: readers of the map interpolate what their pixels meet.
 
 A cell that a ball alone can show, as it hides the rest (`reach.Reach`), needs no rays of its own where the rays about it all meet that ball, and where it bends
 little enough.
@@ -6,15 +6,13 @@ little enough.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import moderngl
 
 from ..planning import GRID_MARGIN, REFINE_STEP
 from . import hit_texels
-from .boxes import Box
-from .classes import THINGS, Where, drawn
+from .classes import Where, drawn
 from .draw import Draw
 from .inputs import FrameInputs
 from .programs import Programs
@@ -65,12 +63,11 @@ class _Made:
 
 
 class ThingsGrid:
-    """Draws shaders/refine_marks.frag, refine_things.frag, refine_bends.frag and refine_fill.frag."""
+    """Draws shaders/refine_marks.frag, refine_things.frag and refine_bends.frag."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._made: _Made | None = None
-        self._filled: moderngl.Framebuffer | None = None
 
     def trace(self, rays: Draw, reached: Reached) -> Filled:
         """Of the picture of the trace pass `rays`, which meets things; `reached` says what cells may show."""
@@ -106,34 +103,16 @@ class ThingsGrid:
         with drawn(self._ctx, draw, _MARKED):
             draw.draw()
 
-    def fill(self, inputs: FrameInputs, textures: list[moderngl.Texture], classes: moderngl.Texture, boxes: Iterable[Box]) -> None:
-        """Writes what they meet into `textures`, of the picture's size, for the pixels in `boxes` that show things by `classes`: right where their cell is
-        filled."""
-        if self._filled is None or self._filled.color_attachments != tuple(textures) or self._filled.depth_attachment is not classes:
-            if self._filled is not None:
-                self._filled.release()
-            self._filled = self._ctx.framebuffer(textures, classes)
+    def samplers(self) -> dict[str, moderngl.Texture]:
+        """What common/hit_map_read.glsl interpolates for the cells that the last `trace` has told of, by name."""
         made = self._there
-        fill = self._programs.get("refine_fill.frag", inputs)
-        fill.sample(
-            {
-                "things_met": self._met,
-                "things_way": made.rays.textures[-1],
-                "bend_x": made.bends.textures[0],
-                "bend_y": made.bends.textures[1],
-            }
-        )
-        self._filled.use()
-        self._filled.depth_mask = False
-        with drawn(self._ctx, fill, THINGS):
-            fill.draw_boxes(boxes)
+        return {"things_met": self._met, "things_way": made.rays.textures[-1], "bend_x": made.bends.textures[0], "bend_y": made.bends.textures[1]}
 
     def release(self) -> None:
         """Gives the GL objects back."""
-        for item in (self._filled, self._made):
-            if item is not None:
-                item.release()
-        self._filled = self._made = None
+        if self._made is not None:
+            self._made.release()
+        self._made = None
 
     @property
     def _there(self) -> _Made:

@@ -12,6 +12,7 @@
 //   bit 8               some crossing may lie on the disk
 //   bit 9               of cells whose pixels have rays of their own: they show no thing or medium, and none was written
 //   bits 10, 11         whether the light comes in towards the hole at crossing 0, at crossing 1, if that is to be interpolated
+//   bit 12              one thing fills it: what its pixels meet is interpolated (refine_things.frag)
 //
 // The grid begins GRID_MARGIN nodes outside the picture: texel (i, j) of the nodes is pixel REFINE_STEP·(i − GRID_MARGIN, j − GRID_MARGIN), and texel (i, j)
 // of the cells holds the pixels from REFINE_STEP·(i, j) on.
@@ -20,7 +21,7 @@ const uint CROSSING_NONE = 0u;
 const uint CROSSING_SEEN = 1u; // to be interpolated
 const uint CROSSING_UNSEEN = 2u;  // further out than matters, or none
 
-const uint CELL_WITHOUT_THINGS = 512u;
+const uint CELL_WITHOUT_THINGS = 512u, CELL_FILLED = 4096u;
 
 uint cell_crossing(uint cell, int n) {
     return (cell >> (2 + 2 * n)) & 3u;

@@ -1,7 +1,8 @@
 // Fetches hits from the hit map: those of the pixel's own ray, or interpolated between the rays of a coarse grid. What lies where in a texel is for hit_texels.glsl
 // to know. The map is in the plan's frame, as a rule that of the camera's meridian, so that it serves a camera at any azimuth; what is fetched is in the world.
 // HIT_MAP_REFINED: 1, pixels of cells that can be trusted have no ray of their own, and their hits are interpolated (hit_cells.glsl); 2, the
-// same for directions in flat cells and nothing else (refine_classes.frag): linear interpolation does, and no own rays are looked for.
+// same for directions in flat cells and nothing else (refine_classes.frag): linear interpolation does, and no own rays are looked for; 3, pixels of
+// cells that one thing fills and nothing else. CELLS_FILLED: there may be such cells.
 #include "common/rotation.glsl"
 #include "common/hit_texels.glsl"
 #include "common/hit_cells.glsl"
@@ -35,6 +36,10 @@ uniform sampler2D bend1;
 #endif
 #if ORDERS > 1
 uniform sampler2D bend2;
+#endif
+#if MEETINGS && CELLS_FILLED
+uniform sampler2D things_met, things_way; // and these
+uniform sampler2D bend_x, bend_y;         // second differences of places on things (refine_bends.frag)
 #endif
 
 const vec2 UNSEEN_CROSSING = vec2(1e6, 0.0); // r_s; stands for one that is off the disk: so far out that no pixel beside it shows any
@@ -107,13 +112,34 @@ Hits interpolated_hits(uint cell, ivec2 pixel) {
 }
 #endif
 
-#if HIT_MAP_REFINED < 2
+#if HIT_MAP_REFINED && MEETINGS && CELLS_FILLED
+// Of a pixel of a cell that one thing fills, as if traced.
+Hits filled_hits(ivec2 pixel) {
+    vec2 place = place_in_grid(pixel);
+    vec2 s = vec2(pixel & (REFINE_STEP - 1)) * (1.0 / float(REFINE_STEP)), weight = 0.5 * s * (s - 1.0);
+    vec4 met = textureLod(things_met, place, 0.0);  // what is met is the same at all four nodes
+    met.xyz += weight.x * textureLod(bend_x, place, 0.0).xyz + weight.y * textureLod(bend_y, place, 0.0).xyz;
+    Hits hits = no_hits(0.0);
+    hits.fate = MET;
+    hits.meeting[0] = unpacked_meeting(met, textureLod(things_way, place, 0.0), vec3(0.0) AND_TIME(0.0));
+    return hits;
+}
+#endif
+
+#if HIT_MAP_REFINED == 3
+Hits fetch_hits(ivec2 pixel) {
+    return in_world(filled_hits(pixel));
+}
+#elif HIT_MAP_REFINED < 2
 // As traced, in the plan's frame.
 Hits stored_hits(ivec2 pixel) {
     vec4 t1 = vec4(0.0), t2 = vec4(0.0);
 #if HIT_MAP_REFINED
     uint cell = cell_of(pixel);
     if (!cell_has_own_rays(cell)) return interpolated_hits(cell, pixel);
+#if MEETINGS && CELLS_FILLED
+    if ((cell & CELL_FILLED) != 0u) return filled_hits(pixel);
+#endif
 #endif
 #if ORDERS > 0
     t1 = texel_of(hits1, pixel);
@@ -149,7 +175,11 @@ Hits fetch_escape(ivec2 pixel) {
 #if HIT_MAP_REFINED == 0
     vec4 t0 = texel_of(hits0, pixel);
 #elif HIT_MAP_REFINED == 1
-    vec4 t0 = cell_has_own_rays(cell_of(pixel)) ? texel_of(hits0, pixel) : interpolated_escape(pixel);
+    uint cell = cell_of(pixel);
+    vec4 t0 = cell_has_own_rays(cell) ? texel_of(hits0, pixel) : interpolated_escape(pixel);
+#if CELLS_FILLED
+    if ((cell & CELL_FILLED) != 0u) t0 = escape_texel(vec3(0.0), MET, 0);
+#endif
 #else
     vec4 t0 = interpolated_escape(pixel);
 #endif

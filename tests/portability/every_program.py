@@ -153,7 +153,9 @@ def _of_instances() -> Iterator[Wanted]:
             drawn = [(path, {}) for path in ("trace.frag", "shade_classes.frag", "shade_matter.frag", "shade_sky.frag")]
             changes = slot == "medium" and catalogue.plug_ins(slot)[kind].traits.changes
             beside_none = {"MEETINGS": 0, "NO_MEETINGS": made.meetings}
-            drawn += [("trace.frag", {"BALLS_KNOWN": 1})] if made.meetings == 1 and made.reach_steps else []
+            if made.meetings == 1 and made.reach_steps:
+                drawn += [("trace.frag", {"BALLS_KNOWN": 1}), ("shade_matter.frag", {"HIT_MAP_REFINED": 3, **FILLED})]
+                drawn += [(path, {"HIT_MAP_REFINED": 1, **FILLED}) for path in ("refine_resolve.frag", "shade_sky.frag")]
             drawn += [("transfer.frag", {"HIT_MAP_REFINED": refined}) for refined in (0, 1) if slot == "medium"]
             drawn += [("transfer.frag", {"FROM_CAMERA": 1, "GRID": grid, "HIT_MAP_REFINED": grid}) for grid in (0, 1) if slot == "medium"]
             kept = {"FROM_CAMERA": 1, "GRID": 1, "SAMPLES": 1}
@@ -171,7 +173,7 @@ def _of_instances() -> Iterator[Wanted]:
                 if slot == "thing" and catalogue.plug_ins(slot)[kind].traits.tells_apart and not made.model.traits.field and made.reach_steps:
                     yield "reach_nodes.frag", f"{kind} by {model}", made, PARTS
                 if made.meetings == 1:
-                    plain = ("marks", "things", "bends", "fill", "half_marks", "half_ends", "half_put")
+                    plain = ("marks", "things", "bends", "half_marks", "half_ends", "half_put")
                     filled = *((f"refine_{name}.frag", {}) for name in plain), ("refine_cells.frag", FILLED)
                     halves = ((f"refine_half_{name}.frag", {"MEETINGS": seeking}) for name in ("cells", "fill") for seeking in (0, 1))
                     yield from ((path, f"{kind} by {model}", made, switches) for path, switches in (*filled, *halves))

@@ -40,6 +40,14 @@ def test_patches_hold_the_cells_picked_each_once_and_little_else(size, sides):
     assert np.count_nonzero(beside) <= 3 * CELL**2 * np.count_nonzero(cells)
 
 
+@pytest.mark.parametrize("size", [(640, 360), (100, 70), (531, 299), (37, 45), (5, 3), (1, 1)])
+def test_exact_patches_hold_nothing_else(size):
+    rows, columns = -(-size[1] // CELL), -(-size[0] // CELL)
+    cells = np.random.default_rng(1).random((rows, columns)) < 0.6
+    pixels = np.kron(cells, np.ones((CELL, CELL), bool))[: size[1], : size[0]]
+    np.testing.assert_array_equal(shown(Patches.picked(cells, CELL, (CELL, 32), size, exactly=True), size), pixels)
+
+
 def test_full_squares_are_large():
     cells = np.ones((16, 32), bool)
     cells[:8, :8] = False
