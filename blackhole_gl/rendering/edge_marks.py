@@ -81,7 +81,7 @@ class MarkedSquares:
         veiled = self.marks & _VEILED != 0
         veiled &= self.has_ray
         if veiled.any():
-            through = self._differing_at_sides & _SEEN_THROUGH_VEIL
+            through = (_at_sides(np.bitwise_and, self.marks) ^ _at_sides(np.bitwise_or, self.marks * self.has_ray)) & _SEEN_THROUGH_VEIL
             through |= differing & (_SEEN_THROUGH_VEIL if corners else _SEEN_THROUGH_VEIL_AT_CORNERS)
             found &= ~veiled | (through != 0)
         within = found.reshape(-1, _ALONG, _ALONG)[:, BESIDE:-BESIDE, BESIDE:-BESIDE]
@@ -91,16 +91,6 @@ class MarkedSquares:
         x, y = self.columns[square] + column, self.rows[square] + row
         inside = (x < self.size[0]) & (y < self.size[1])
         return Edges(self, np.stack([x[inside], y[inside]], axis=-1), at[inside])
-
-    @property
-    def _differing_at_sides(self) -> Int[np.ndarray, " pixels"]:
-        """The bits in which the rays of each pixel and the four at its sides differ."""
-        found = []
-        for of_two, values in ((np.bitwise_and, self.marks), (np.bitwise_or, self.marks * self.has_ray)):
-            inner = values[_ALONG:-_ALONG]
-            beside = values[: -2 * _ALONG], values[2 * _ALONG :], values[_ALONG - 1 : -_ALONG - 1], values[_ALONG + 1 : len(values) - _ALONG + 1]
-            found.append(reduce(of_two, beside, inner))
-        return np.pad(found[0] ^ found[1], _ALONG)
 
     @cached_property
     def are_wide(self) -> Bool[np.ndarray, " pixels"]:
@@ -181,6 +171,16 @@ def _near(of_two: np.ufunc, values: np.ndarray) -> np.ndarray:
     inner = found[_ALONG + 1 : -_ALONG - 1]
     of_two(rows[:-2], rows[2:], out=inner)
     of_two(inner, rows[1:-1], out=inner)
+    return found
+
+
+def _at_sides(of_two: np.ufunc, values: np.ndarray) -> np.ndarray:
+    """The same of each value and the four at its sides."""
+    found = np.zeros_like(values)
+    inner = found[_ALONG:-_ALONG]
+    of_two(values[: -2 * _ALONG], values[2 * _ALONG :], out=inner)
+    for apart in (-1, 0, 1):
+        of_two(inner, values[_ALONG + apart : len(values) - _ALONG + apart], out=inner)
     return found
 
 
