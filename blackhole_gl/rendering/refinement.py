@@ -33,8 +33,8 @@ _BAND = 64 // REFINE_STEP
 
 # Sides in pixels of the squares in which pixels of one kind are drawn: of things, which lie beyond flat sky, the depth test spares none of that, and of things'
 # cells it does not know which show any; else it knows all. Of cells that one thing fills it knows none.
-_FILLED_SIDES = REFINE_STEP, 8 * REFINE_STEP
-_PATCHES = {FLAT_SKY: (2 * REFINE_STEP, 8 * REFINE_STEP), THINGS: (REFINE_STEP, 8 * REFINE_STEP), OPEN_THINGS: (REFINE_STEP, 8 * REFINE_STEP)}
+_SIDES = REFINE_STEP, 2 * REFINE_STEP, 8 * REFINE_STEP
+_PATCHES = {FLAT_SKY: _SIDES[1:], THINGS: _SIDES, OPEN_THINGS: _SIDES}
 
 # Share of the cells let pass by the depth test that need what is drawn in them up to which they are drawn in squares, which themselves take a twentieth more.
 _WORTH_SQUARES = 0.85
@@ -204,7 +204,7 @@ class CoarseGrid:
             if self._cells is not None and not cells.any():
                 cells = np.zeros(cells.shape, bool)
                 cells.flat[np.argmin(self._cells)] = np.min(self._cells) < PixelClass.FLAT_SKY.depth_beyond
-            self._filled = Patches.picked(cells, REFINE_STEP, _FILLED_SIDES, self.classes.size, exactly=True)
+            self._filled = Patches.picked(cells, REFINE_STEP, _SIDES, self.classes.size, exactly=True)
         return self._filled
 
     def see(self, box: Box, seen: Mapping[Where, Bool[np.ndarray, "rows columns"]]) -> None:

@@ -85,7 +85,7 @@ class Squares:
 
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """Squares of two sizes, and boxes where the picture's upper and right edges would cut some. No pixel lies in two of them.
+    """Squares of a few sizes, and boxes where the picture's upper and right edges would cut some. No pixel lies in two of them.
 
     Attributes:
         points: the squares as shaders/fullscreen.vert takes them, float32 (N, 3).
@@ -96,19 +96,22 @@ class Patches:
 
     @classmethod
     def picked(
-        cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, int], size: tuple[int, int], *, exactly: bool = False
+        cls, cells: Bool[np.ndarray, "rows columns"], cell: int, sides: tuple[int, ...], size: tuple[int, int], *, exactly: bool = False
     ) -> Patches:
-        """Those of a picture of `size` that hold all of its `cells`, of `cell` pixels each way, that are picked: squares of the smaller of two `sides` which
-        hold any, and one of the larger, which is a multiple of it, in the place of those that it is full of. `exactly`: and no others, if the smaller side is
-        that of a cell."""
-        small, large = (side // cell for side in sides)
-        columns, rows = (side // sides[0] * small for side in size)
-        left = np.zeros((rows + -rows % large, columns + -columns % large), bool)
+        """Those of a picture of `size` that hold all of its `cells`, of `cell` pixels each way, that are picked: squares of the smallest of `sides` which
+        hold any, and one of a larger, each a multiple of that before it, in the place of those that it is full of. `exactly`: and no others, if the smallest
+        side is that of a cell."""
+        smallest, *larger = (side // cell for side in sides)
+        columns, rows = (side // sides[0] * smallest for side in size)
+        left = np.zeros((rows + -rows % larger[-1], columns + -columns % larger[-1]), bool)
         left[:rows, :columns] = cells[:rows, :columns]
-        full = _of_blocks(np.logical_and, left, large)
-        left &= ~full.repeat(large, axis=0).repeat(large, axis=1)
-        points = np.concatenate([_points(_of_blocks(np.logical_or, left, small), sides[0], size), _points(full, sides[1], size)])
-        return cls(points, tuple(_cut(cells, rows, columns, cell, size, exactly)))
+        points = []
+        for side in reversed(larger):
+            full = _of_blocks(np.logical_and, left, side)
+            left &= ~full.repeat(side, axis=1).repeat(side, axis=0)
+            points.append(_points(full, side * cell, size))
+        points.append(_points(_of_blocks(np.logical_or, left, smallest), sides[0], size))
+        return cls(np.concatenate(points), tuple(_cut(cells, rows, columns, cell, size, exactly)))
 
 
 def _cut(cells: Bool[np.ndarray, "rows columns"], rows: int, columns: int, cell: int, size: tuple[int, int], exactly: bool) -> Iterator[Box]:

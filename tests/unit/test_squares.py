@@ -23,7 +23,7 @@ def shown(patches: Patches, size: tuple[int, int]) -> np.ndarray:
     return held
 
 
-@pytest.mark.parametrize("sides", [(4, 32), (8, 32)])
+@pytest.mark.parametrize("sides", [(4, 32), (8, 32), (4, 8, 32)])
 @pytest.mark.parametrize("size", [(640, 360), (100, 70), (531, 299), (37, 45), (5, 3), (1, 1)])
 def test_patches_hold_the_cells_picked_each_once_and_little_else(size, sides):
     rows, columns = -(-size[1] // CELL), -(-size[0] // CELL)
