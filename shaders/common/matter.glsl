@@ -25,12 +25,14 @@ Sight sight_of(Meeting met, vec2 energy) {
     vec3 n = met.place / r;
     vec3 backwards = (0.5 / r) * met.momentum.n_rate - met.momentum.w_rate * n;
     vec3 towards = -backwards / max(length(backwards), 1e-20);
-    float what = float(met.kind + 32 * met.index);
     vec3 right = dFdx(met.place), up = dFdy(met.place);
+#if HIT_MAP_REFINED != 3  // where all of a cell meet the same
+    float what = float(met.kind + 32 * met.index);
     float away = camera_w > 0.0 ? 2.0 * distance(met.place, camera_n.xyz * (0.5 / camera_w)) : 1.0;
     vec3 aside = normalize(cross(towards, abs(towards.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
     if (dFdx(what) != 0.0) right = picture_scale * away * aside;
     if (dFdy(what) != 0.0) up = picture_scale * away * cross(aside, towards);
+#endif
     return Sight(met.place, towards, energy.x, energy.y, met.enters, int(length(met.note) + 0.5) - 1, met.momentum, right, up);
 }
 
