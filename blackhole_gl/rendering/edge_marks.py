@@ -52,6 +52,8 @@ class MarkedSquares:
     @classmethod
     def of(cls, marks: Int[np.ndarray, "height width"]) -> MarkedSquares:
         """Those of the picture that has these `marks`, its first number in the low byte, which may hold edges."""
+        if marks.size and int((marks + np.uint16(1)).max()) <= int(marks.min()) + 1:  # all rays are alike; no ray counts for nothing
+            marks = marks[:0]
         height, width = marks.shape
         rows, columns = -(-height // _SIDE), -(-width // _SIDE)
         whole = np.full((rows * _SIDE + 2 * BESIDE, columns * _SIDE + 2 * BESIDE), _NO_RAY)

@@ -104,8 +104,10 @@ def test_where_nothing_has_rays_there_are_no_edges(shape: tuple[int, int]) -> No
     assert found.pixels.shape == (0, 2) and found.beside_things().shape == found.at_plain_outlines().shape == (0,)
 
 
-def test_a_picture_of_one_kind_has_no_edges() -> None:
-    assert MarkedSquares.of(np.full((9, 16), SKY, np.uint16)).edges().pixels.shape == (0, 2)
+@pytest.mark.parametrize("kinds", [(SKY,), (SKY, NO_RAY), (NO_RAY,)])
+def test_a_picture_of_one_kind_has_no_edges(kinds: tuple[int, ...]) -> None:
+    marks = np.random.default_rng(1).choice(np.array(kinds, np.uint16), (19, 16))
+    assert MarkedSquares.of(marks).edges().pixels.shape == (0, 2)
 
 
 @pytest.mark.parametrize("size", [(8, 12), (7, 10), (1, 1), (0, 0)])
