@@ -337,7 +337,7 @@ def tolerances(inputs: FrameInputs) -> tuple[float, float]:
     Returns:
         Error of directions in rad; of crossings, for each r_s between them and the camera, or in r_s for parallel rays.
     """
-    camera, height = inputs.plan.scene.camera, inputs.size[1]
+    camera, height = inputs.plan.scene.camera, inputs.picture[1]
     pixel = math.radians(camera.fov_deg) / height
     on_disk = 0.5 * camera.field_m / height if math.isinf(camera.distance) else pixel
     return inputs.plan.refine_px * pixel, inputs.plan.refine_px * on_disk
