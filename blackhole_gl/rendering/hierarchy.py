@@ -25,8 +25,6 @@ _CELLS = 65535
 
 _CUTS = 8  # parts of as many boxes, between which a node may be cut
 
-MOST_IN_LEAF = 4
-
 
 @dataclass(frozen=True)
 class Hierarchy:
@@ -62,23 +60,6 @@ class Hierarchy:
         used[:, 3] = np.where(self.count > 0, -1 - 2 * leaves - (self.beyond < 0), after)
         return found.reshape(rows, ROW, 4)
 
-    def nearest_first(self, towards: Float[np.ndarray, " 3"]) -> Hierarchy:
-        """The same with those children first that lie farther on in the direction `towards`, from where rays come: they hide the others."""
-        ends = np.where(self.beyond < 0, len(self.beyond), self.beyond)
-        ahead = (self.low + self.high) @ towards
-        place, beyond = np.zeros(len(self.beyond), int), np.full(len(self.beyond), -1)
-        parents = np.arange(min(len(self.beyond), 1))
-        while (parents := parents[self.count[parents] == 0]).size:
-            first, second = parents + 1, ends[parents + 1]
-            swapped = ahead[second] > ahead[first]
-            first, second = np.where(swapped, second, first), np.where(swapped, first, second)
-            place[first] = place[parents] + 1
-            place[second] = place[first] + ends[first] - first
-            beyond[first], beyond[second] = place[second], beyond[parents]
-            parents = np.concatenate([first, second])
-        order = np.argsort(place)
-        return Hierarchy(self.low[order], self.high[order], beyond[order], self.first[order], self.count[order], self.order)
-
     def _lattice(self) -> tuple[Float[np.ndarray, " 3"], np.float32]:
         """Corner and width of a cell, float32: two cells of room on either side of all boxes, and no cell finer than the corner is rounded by."""
         if not len(self.low):
@@ -88,8 +69,8 @@ class Hierarchy:
         return (low - 2.0 * cell).astype(np.float32), cell
 
 
-def build(low: Float[np.ndarray, "N 3"], high: Float[np.ndarray, "N 3"], in_leaf: int = 1) -> Hierarchy:
-    """The hierarchy of the boxes from `low` to `high`, at most `in_leaf` (1 to `MOST_IN_LEAF`) of them in a leaf."""
+def build(low: Float[np.ndarray, "N 3"], high: Float[np.ndarray, "N 3"]) -> Hierarchy:
+    """The hierarchy of the boxes from `low` to `high`, one in each leaf."""
     sorted_by = (low + high).argsort(axis=0, kind="stable").T  # boxes along each axis; those of a node lie together in all three
     start, length = (np.array([value] if len(low) else [], int) for value in (0, len(low)))
     levels: list[_Level] = []
@@ -98,11 +79,11 @@ def build(low: Float[np.ndarray, "N 3"], high: Float[np.ndarray, "N 3"], in_leaf
         taken = (start - cut).repeat(length) + np.arange(length.sum())
         items = sorted_by[0, taken]
         bounds = np.minimum.reduceat(low[items], cut), np.maximum.reduceat(high[items], cut)
-        inner = length > in_leaf
+        inner = length > 1
         levels.append(_Level(*bounds, start, length, inner))
         taken, start, length = taken[inner.repeat(length)], start[inner], length[inner]
         if start.size:
-            halves = _halved(low, high, sorted_by, taken, length)
+            halves, _ = halved(low, high, sorted_by, taken, length, len(low))
             start, length = _in_turn(start, start + halves), _in_turn(halves, length - halves)
     return _laid_out(levels, sorted_by[0])
 
@@ -135,12 +116,18 @@ class _Level:
     inner: Bool[np.ndarray, " nodes"]
 
 
-def _halved(low: np.ndarray, high: np.ndarray, sorted_by: np.ndarray, taken: np.ndarray, length: np.ndarray) -> Int[np.ndarray, " nodes"]:
-    """Parts nodes of `length` items, which lie at `taken` one node behind the other, and puts the items of the first half first. Returns how many those are."""
+def halved(
+    low: np.ndarray, high: np.ndarray, sorted_by: np.ndarray, taken: np.ndarray, length: np.ndarray, most: int
+) -> tuple[Int[np.ndarray, " nodes"], Int[np.ndarray, " nodes"]]:
+    """Parts nodes of `length` items, which lie at `taken` one node behind the other, in halves of `most` at most, and puts the items of the first half first.
+
+    Returns:
+        How many those are, and along which axis the others lie behind them.
+    """
     cut, nodes = length.cumsum() - length, np.arange(len(length))
     items = sorted_by[:, taken]
     firsts = (length[:, None] * np.arange(1, _CUTS)) // _CUTS  # how many are before each cut
-    costs = _costs(low[items], high[items], cut, length, firsts)
+    costs = np.where((firsts <= most) & (length[:, None] - firsts <= most), _costs(low[items], high[items], cut, length, firsts), np.inf)
     axis, place = np.divmod(costs.transpose(1, 0, 2).reshape(len(length), -1).argmin(axis=1), _CUTS - 1)
     halves = firsts[nodes, place]
     middles = (cut + halves).repeat(length)
@@ -152,7 +139,7 @@ def _halved(low: np.ndarray, high: np.ndarray, sorted_by: np.ndarray, taken: np.
     before -= before[:, cut].repeat(length, axis=1)  # of the second half, in the same node
     places = taken[np.where(second, middles + before, here - before)]
     sorted_by[np.arange(3)[:, None], places] = items
-    return halves
+    return halves, axis
 
 
 def _costs(low: np.ndarray, high: np.ndarray, cut: np.ndarray, length: np.ndarray, firsts: np.ndarray) -> Float[np.ndarray, "3 nodes cuts"]:

@@ -113,9 +113,11 @@ def _has_surface(kind: PlugIn) -> bool:
 
 
 def switches(scene: Scene) -> dict[str, int]:
-    """Name → number: what tells the kinds of `scene` apart in a hit, which are opaque, whether any tells its distance, and which parts of media there are."""
+    """Name → number: what tells the kinds of `scene` apart in a hit, which are opaque, whether any tells its parts apart or its distance, and which parts of
+    media there are."""
     kinds = used(scene)
-    found = {"MEETINGS_BY_DISTANCE": int(any(kind.slot == "medium" or kind.traits.meets == "distance" for kind in kinds))}
+    found = {"MEETINGS_TOLD_APART": int(any(kind.slot == "thing" and kind.traits.tells_apart for kind in kinds))}
+    found |= {"MEETINGS_BY_DISTANCE": int(any(kind.slot == "medium" or kind.traits.meets == "distance" for kind in kinds))}
     for number, kind in enumerate(kinds):
         name = f"{kind.slot}_{kind.key}".upper()
         found[name] = number
@@ -204,7 +206,7 @@ class InstanceTables:
         files = FrozenMap({**pictures.layers(plan.scene), **(found.roots if found else {})})
         tables = {**self._tables(plan, time, files), "lamps_table": lamps.rows(plan, time)}
         if found:
-            tables |= {"mesh_nodes": found.nodes(plan, time), "mesh_triangles": found.triangles}
+            tables |= {"mesh_nodes": found.nodes, "mesh_triangles": found.triangles}
         return {name: self._texture(name, table) for name, table in tables.items()}
 
     def _tables(self, plan: Plan, time: float, files: FrozenMap[str, int]) -> dict[str, np.ndarray]:

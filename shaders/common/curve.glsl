@@ -117,6 +117,34 @@ Stray path_stray(Path a, Path b, float part) {
     return Stray(ends ? stray + twisted : 1e30, moved + turn * half_off + twisted, aside);
 }
 
+// How a way bends between two places of it: beside the part s of the straight piece between them it lies 4 s (1 − s) times the bow from there, and strays from that by
+// `off`; r_s.
+struct Bend {
+    vec3 bow;
+    float off;
+};
+
+Bend no_bend(float stray) {
+    return Bend(vec3(0.0), stray);
+}
+
+// How far it strays from the straight piece.
+float bent_stray(Bend bend) {
+    return length(bend.bow) + bend.off;
+}
+
+// That of the way from a to b by way of the `middle`: by its directions at both ends, of which the bow's are the mean, and by how far it is from there in the middle.
+Bend path_bend(Path a, Path middle, Path b) {
+    vec3 from = path_point(a), way = path_point(b) - from, begins = path_velocity(a), ends = path_velocity(b);
+    float way2 = max(dot(way, way), 1e-30), forth = dot(begins, way), back = dot(ends, way);
+    vec3 rise = way2 / forth * begins - way, fall = way - way2 / back * ends, bow = 0.125 * (rise + fall);
+    vec3 between = path_point(middle) - from;
+    float s = clamp(dot(between, way) / way2, 0.0, 1.0);
+    float aside = distance(between, s * way + 4.0 * s * (1.0 - s) * bow);
+    bool is_told = min(forth, back) > 0.0 && min(min(a.place.w, b.place.w), middle.place.w) > 0.0;
+    return is_told ? Bend(bow, 0.05 * distance(rise, fall) + 2.0 * aside) : no_bend(1e30);
+}
+
 // Whether nothing within `reach` of the hole is met from a on, as the way from there to b leads outwards.
 bool path_leaves(Path a, Path b, float reach) {
     float from2 = dot(a.place.xyz, a.place.xyz), to2 = dot(b.place.xyz, b.place.xyz);

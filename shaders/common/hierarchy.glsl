@@ -24,11 +24,16 @@ float rounding(vec3 x, vec3 y) {
     return 1e-6 * max(max(size.x, size.y), size.z);
 }
 
-Piece piece_of(isampler2D nodes, vec3 x, vec3 y, float stray) {
-    vec4 lattice = intBitsToFloat(texelFetch(nodes, ivec2(0), 0));
+vec4 lattice_of(isampler2D nodes) {
+    return intBitsToFloat(texelFetch(nodes, ivec2(0), 0));
+}
+
+// That of a way which bends by `bow` from the piece from x to y (common/curve.glsl) and strays from there, in cells of a lattice: its corner and their width.
+Piece piece_of(vec4 lattice, vec3 x, vec3 y, vec3 bow, float stray) {
     float pad = (stray + rounding(x, y)) / lattice.w + 0.02;  // and what rounding takes of cells
-    vec3 from = (x - lattice.xyz) / lattice.w, way = (y - x) / lattice.w, divisor = mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
-    return Piece(from, way, 1.0 / divisor, from + pad, from - pad, pad, 1.0 / max(dot(way, way), 1e-30), lattice.w);
+    vec3 from = (x + 0.5 * bow - lattice.xyz) / lattice.w, way = (y - x) / lattice.w, pads = pad + 0.52 / lattice.w * abs(bow);
+    vec3 divisor = mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
+    return Piece(from, way, 1.0 / divisor, from + pads, from - pads, pad, 1.0 / max(dot(way, way), 1e-30), lattice.w);
 }
 
 Node fetch_node(isampler2D nodes, int number) {

@@ -11,9 +11,11 @@
 //     float thing_<key>_crossing(int i, vec3 x, vec3 y, out bool enters)   the part 0…1 of the straight piece from x to y at which instance i is first
 //                                                 met, and whether it is entered there; 2: not at all
 // and with tells_apart, which is for what is made of many parts
-//     float thing_<key>_crossing(int i, vec3 x, vec3 y, float stray, out bool enters, out int part)   the same, and the number of the part that is met, below
-//                                                 2¹⁸; of a way that strays from the piece by more than 0: 2 where it misses it for certain, else less
+//     float thing_<key>_crossing(int i, vec3 x, vec3 y, vec3 bow, float stray, out bool enters, out int part)   the same of a way that bends by `bow` from the piece
+//                                                 (common/curve.glsl), and the number of the part that is met, below 2¹⁸; where the way strays from there by more
+//                                                 than 0: 2 where it misses it for certain, else less
 //     vec3 thing_<key>_facing(int i, int part)   the unit normal of that part
+//     float thing_<key>_grain(int i)             how long its parts are at most, r_s
 //
 // BALLS_KNOWN: coarse rays have told which balls that things lie in may be met where the ray is (common/reach.glsl): those few are held against it instead of the boxes
 // of all. All things are opaque then.
@@ -73,6 +75,14 @@ float size_of(int kind, int index) {
     return 0.0;
 }
 
+const float MOST_GRAIN = 0.5;  // of a piece that is held, as it bends, against parts: beside one of them it goes on straight
+
+// How long the parts of what tells_apart are, r_s.
+float grain_of(int kind, int index) {
+#each thing_told_apart : if (kind_$key(kind)) return thing_$key_grain(index);
+    return 0.0;
+}
+
 // What a step passes through the surface that it comes to by, in r_s, of a thing of that size at x: less than things are thick, more than x is rounded by.
 float overstep(float size, vec3 x) {
     return min(5e-4, 2e-4 * size) + 1e-6 * length(x);
@@ -129,9 +139,9 @@ float circle_bow(int kind, int index, vec2 delays) {
 #endif
 
 // The part of the piece at which the instance is first met, 0…1; 2: not at all. Where light takes its time the ends of the piece were passed at two times: what moves
-// is met where it was in between, which is as if it stood and the piece led farther. `of`: the number of its part. Where the way strays from the piece by more than 0, what
+// is met where it was in between, which is as if it stood and the piece led farther. `of`: the number of its part, for which the way bends by `bow`. Where it strays by more than 0, what
 // tells_apart says whether it is missed for certain (2), and all else that it may be met (0).
-float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 delays), float stray, out bool enters, out int of) {
+float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 delays), vec3 bow, float stray, out bool enters, out int of) {
     float part = 2.0;
     enters = true;
     of = 0;
@@ -145,7 +155,7 @@ float met_part(int kind, int index, float size, vec3 x, vec3 y AND_TIME(vec2 del
     if (tells_distance(kind) && stray <= 0.0) part = traced_part(kind, index, size, x, y, enters);
 #endif
 #each thing_not_placed : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, enters);
-#each thing_told_apart : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, stray, enters, of);
+#each thing_told_apart : if (kind_$key(kind)) part = thing_$key_crossing(index, x, y, bow, stray, enters, of);
     return tells_apart(kind) || stray <= 0.0 ? part : 0.0;
 }
 
@@ -184,10 +194,11 @@ void meet(Found found, vec3 place, Momentum momentum AND_TIME(float delay), inou
 }
 
 // The first that the piece from x to y meets, of all leaves from the node `first` on. `allowed` is how far the way may stray from it: where that is less than
-// `stray`, the piece is too long for what it is near to, and nothing else is told.
+// it does, the piece is too long for what it is near to, and nothing else is told.
 #if BALLS_KNOWN
-Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) {
+Found first_on_piece(vec3 x, vec3 y, Bend bend, int first, out float allowed) {
     Found found = NOTHING_FOUND;
+    float stray = bent_stray(bend);
     uint left = stray < 1e29 ? known_balls : 0u;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
     if (left != 0u) do {
@@ -195,26 +206,30 @@ Found first_on_piece(vec3 x, vec3 y, float stray, int first, out float allowed) 
         bool near;
         do {
             ball = next_ball(left);
-            near = comes_near(ball, x, y, stray);
+            near = comes_near(ball, x + 0.5 * bend.bow, y + 0.5 * bend.bow, 0.5 * length(bend.bow) + bend.off);
         } while (!near && left != 0u);
         if (near) {
             float size = size_of(ball.kind, ball.index);
             float own = max(stray_allowed(size), rounding(x, y));  // no finer than single precision
             if (tells_apart(ball.kind)) own = max(own, unseen_stray(x));
-            bool fine = stray <= own, enters;
+            bool bends = tells_apart(ball.kind) && grain_of(ball.kind, ball.index) < MOST_GRAIN * distance(x, y);
+            vec3 bow = bends ? bend.bow : vec3(0.0);
+            float off = bends ? bend.off : stray;
+            bool fine = off <= own, enters;
             int of;
-            float part = met_part(ball.kind, ball.index, size, x, y, fine ? 0.0 : stray, enters, of);
-            if (fine || part <= 1.0) allowed = min(allowed, own);
-            if (fine && part < found.at) found = Found(ball.kind, ball.index, part, size, enters, of AND_PLACE(mix(x, y, part)));
+            float part = met_part(ball.kind, ball.index, size, x, y, bow, fine ? 0.0 : off, enters, of);
+            if (!fine && part <= 1.0) allowed = min(allowed, own * (stray / off));
+            if (fine && part < found.at) found = Found(ball.kind, ball.index, part, size, enters, of AND_PLACE(mix(x, y, part) + 4.0 * part * (1.0 - part) * bow));
         }
         left = stray > allowed ? 0u : left;
     } while (left != 0u);
     return found;
 }
 #else
-Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int first, out float allowed) {
+Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), Bend bend, int first, out float allowed) {
     Found found = NOTHING_FOUND;
-    Piece piece = piece_of(meeting_nodes, x, y, stray);
+    float stray = bent_stray(bend);
+    Piece piece = piece_of(lattice_of(meeting_nodes), x, y, vec3(0.0), stray);
     int number = stray < 1e29 ? first : 0;
     allowed = stray < 1e29 ? 1e30 : 0.1 * stray;
     if (number > 0) do {
@@ -229,7 +244,7 @@ Found first_on_piece(vec3 x, vec3 y AND_TIME(vec2 delays), float stray, int firs
 #endif
             bool fine = stray <= own, enters;
             int of;
-            float part = met_part(kind, index, size, x, y AND_TIME(delays), fine ? 0.0 : stray, enters, of);
+            float part = met_part(kind, index, size, x, y AND_TIME(delays), vec3(0.0), fine ? 0.0 : stray, enters, of);
             if (fine || part <= 1.0) allowed = min(allowed, own);
             if (fine && part < found.at) found = Found(kind, index, part, size, enters, of);
             number = stray > allowed ? 0 : next_node(leaf, number, true);
@@ -266,7 +281,7 @@ bool may_meet(Path a, Path b, float h, const bool remembers, inout vec4 clear, o
     } while (left != 0u);
     return comes || stray.off > 1e29;
 #else
-    Piece piece = piece_of(meeting_nodes, x + stray.aside, y + stray.aside, stray.moved_off);
+    Piece piece = piece_of(lattice_of(meeting_nodes), x + stray.aside, y + stray.aside, vec3(0.0), stray.moved_off);
     bool is_clear = remembers && max(distance(x, clear.xyz), distance(y, clear.xyz)) + stray.off + rounding(x, y) < clear.w;
     bool near = !is_clear && stray.off > 1e29;
     int number = is_clear || near ? 0 : 1;
@@ -303,19 +318,31 @@ const float FAR_END = 1e-3;    // of a step that begins or ends infinitely far a
 Found next_meeting(Way way, float from, float to, int first) {
     float t = way.a.place.w <= 0.0 ? max(from, FAR_END) : from;
     float last = way.b.place.w <= 0.0 ? min(to, 1.0 - FAR_END) : to;
+#if BALLS_KNOWN && MEETINGS_TOLD_APART
+    vec2 within = within_known(way, t, last);
+    t = max(t, within.x);
+    last = min(last, within.y);
+#endif
     Path here = way_path(way, t), ahead;
     float part = last - t, next;
     Found found;
     bool done;
     int pieces = 0;
     do {
+#if BALLS_KNOWN && MEETINGS_TOLD_APART
+        next = min(t + part, last);
+        ahead = way_path(way, next);
+        Bend bend = path_bend(here, way_path(way, 0.5 * (t + next)), ahead);
+#else
         next = min(t + part, t < 0.5 ? min(last, 0.5) : last);
         ahead = way_path(way, next);
-        float stray = path_stray(here, ahead, next - t).off, allowed;
-#if RAYS_LIGHT_TRAVEL
-        stray = max(stray, 1e-9);  // beside which the bows of circles are measured
+        Bend bend = no_bend(path_stray(here, ahead, next - t).off);
 #endif
-        found = first_on_piece(path_point(here), path_point(ahead) AND_TIME(vec2(path_delay(here), path_delay(ahead))), stray, first, allowed);
+#if RAYS_LIGHT_TRAVEL
+        bend.off = max(bend.off, 1e-9);  // beside which the bows of circles are measured
+#endif
+        float stray = bent_stray(bend), allowed;
+        found = first_on_piece(path_point(here), path_point(ahead) AND_TIME(vec2(path_delay(here), path_delay(ahead))), bend, first, allowed);
         bool fine = stray <= allowed;
         if (!fine) found = NOTHING_FOUND;
         done = t >= last || fine && (found.kind != MEETING_NONE || next >= last || path_leaves(here, ahead, meeting_reach));
@@ -338,7 +365,7 @@ float crossing_beyond(inout Found found, vec3 x, vec3 onward, float most) {
     float part = 2.0;
 #each thing_not_placed : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, enters);
 #if !BALLS_KNOWN
-#each thing_told_apart : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, 0.0, enters, of);
+#each thing_told_apart : if (kind_$key(found.kind)) part = thing_$key_crossing(found.index, x - most * onward, x + most * onward, vec3(0.0), 0.0, enters, of);
     if (tells_apart(found.kind) && part <= 1.0) {
         found.enters = enters;
         found.part = of;
@@ -394,7 +421,7 @@ bool meet_along_line(vec3 x, vec3 v, float s_end, float s_crossing, vec2 point, 
     bool crosses = s_crossing > 0.0 && s_crossing < s_end;
     for (int i = 0; i < 8; ++i) {
         float ignored;
-        Found found = first_on_piece(x + from * v, x + last * v, 0.0, 1, ignored);
+        Found found = first_on_piece(x + from * v, x + last * v, no_bend(0.0), 1, ignored);
         bool none = found.kind == MEETING_NONE || from >= last;
         float s = mix(from, last, found.at);
         if (crosses && (none || s_crossing < s)) {

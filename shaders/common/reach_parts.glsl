@@ -36,7 +36,7 @@ bool comes_near_parts(Path a, Path b, float h, float margin, int ball) {
     int of = int(textureLod(reach_balls, vec2(column, 0.75), 0.0).x + 0.5) - 1, part;
     bool enters;
     Stray stray = path_stray(a, b, h);
-    float met = met_part(of & 31, of >> 5, 1.0, path_point(a) + stray.aside, path_point(b) + stray.aside AND_TIME(vec2(0.0)), stray.moved_off + margin, enters, part);
+    float met = met_part(of & 31, of >> 5, 1.0, path_point(a) + stray.aside, path_point(b) + stray.aside AND_TIME(vec2(0.0)), vec3(0.0), stray.moved_off + margin, enters, part);
     return met <= 1.0 || stray.off > 1e29;
 }
 

@@ -33,11 +33,10 @@ help = "Whether it has the colours that its file gives its corners, if it gives 
 #include "common/rotation.glsl"
 #include "common/colour.glsl"
 #include "common/surface.glsl"
-#include "common/hierarchy.glsl"
+#include "common/box_pairs.glsl"
 
 // mesh_triangles, MESH_TEXELS to each: three corners, their normals, their colours (−1: none); w of the first six: texture coordinates (the first −1e6: none), of the
 // others the triangle beyond the side opposite to each corner (−1: none).
-// A leaf of mesh_nodes holds 4·(number of its first triangle) + how many follow.
 
 // What a piece meets first of a mesh.
 struct MeshSpot {
@@ -53,10 +52,17 @@ vec4 mesh_texel(int triangle, int place) {
     return textureLod(mesh_triangles, texel / vec2(textureSize(mesh_triangles, 0)), 0.0);
 }
 
-// Neighbours share what decides about their common edge, so that nothing slips through between them.
-void meet_triangle(int triangle, vec3 x, vec3 way, inout MeshSpot found) {
+const float BEND_PARTS = 16.0;  // straight ones of a way that bends
+
+// Neighbours share what decides about their common edge, so that nothing slips through between them: on which side of each edge that straight part of the way leads
+// which lies beside its middle.
+void meet_triangle(int triangle, vec3 x, vec3 way, vec3 bow, inout MeshSpot found) {
     vec3 a = mesh_texel(triangle, 0).xyz - x, b = mesh_texel(triangle, 1).xyz - x, c = mesh_texel(triangle, 2).xyz - x;
-    vec3 volumes = vec3(dot(way, cross(c, b)), dot(way, cross(a, c)), dot(way, cross(b, a)));
+    vec3 beside_a = cross(c, b), beside_b = cross(a, c), beside_c = cross(b, a), turned = cross(bow, way);
+    vec3 volumes = vec3(dot(way, beside_a), dot(way, beside_b), dot(way, beside_c));
+    vec3 along = vec3(dot(a, way), dot(b, way), dot(c, way)) / max(dot(way, way), 1e-30), aside = vec3(dot(a, turned), dot(b, turned), dot(c, turned));
+    vec3 parts = (floor(clamp(0.5 * BEND_PARTS * (along.yzx + along.zxy), 0.0, BEND_PARTS - 1.0)) + 0.5) / BEND_PARTS;
+    volumes += (4.0 - 8.0 * parts) * vec3(dot(bow, beside_a), dot(bow, beside_b), dot(bow, beside_c)) + 4.0 * parts * parts * (aside.yzx - aside.zxy);
     float whole = volumes.x + volumes.y + volumes.z;
     bool inside = min(volumes.x, min(volumes.y, volumes.z)) >= 0.0 || max(volumes.x, max(volumes.y, volumes.z)) <= 0.0;
     vec3 shares = volumes / (whole == 0.0 ? 1.0 : whole);
@@ -64,25 +70,27 @@ void meet_triangle(int triangle, vec3 x, vec3 way, inout MeshSpot found) {
     if (inside && whole != 0.0 && part >= 0.0 && part <= 1.0 && part < found.part) found = MeshSpot(part, triangle, shares, whole > 0.0);
 }
 
-// The first triangle of the mesh with the first node `root` on the piece from x to y, both in its own axes; of a way that strays from the piece by a `pad` that is more than
-// 0, the first leaf that it may come into, as if that were met where the piece begins.
-MeshSpot meet_mesh(int root, vec3 x, vec3 y, float pad) {
+// The first triangle of the mesh with that `root` (common/box_pairs.glsl) on a way from x to y, in its own axes, that bends by `bow` from the piece between them
+// (common/curve.glsl); of a way that strays from there by a `pad` that is more than 0, the first that it may come to, as if that were met where the piece begins.
+MeshSpot meet_mesh(int root, vec3 x, vec3 y, vec3 bow, float pad) {
     MeshSpot found = MeshSpot(2.0, -1, vec3(1.0, 0.0, 0.0), true);
-    Piece piece = piece_of(mesh_nodes, x, y, pad);
-    int number = root;
-    if (number > 0) do {
-        Node leaf;
-        number = next_leaf(mesh_nodes, piece, number, min(found.part, 1.0), false, leaf);
-        if (number > 0 && pad > 0.0) found.part = 0.0;
-        int triangle = held(leaf) >> 2, last = pad > 0.0 ? triangle : triangle + (held(leaf) & 3);
-        bool left = number > 0;
+    PairWalk walk = pair_walk(mesh_nodes, root, piece_of(PAIR_LATTICE, x, y, bow, pad));
+    if (walk.node > 0) do {
+        walk_on(mesh_nodes, min(found.part, 1.0), walk);
+        int run = walk.first, after = walk.second;
+        bool comes = run >= 0, left = comes && pad <= 0.0;
         if (left) do {
-            meet_triangle(triangle, x, y - x, found);
-            left = triangle < last;
-            triangle = min(triangle + 1, last);  // a round more leaves a ray that is done where it is (docs/llvmpipe.md)
+            meet_triangle(walk.triangles + (run >> 2), x, y - x, bow, found);
+            bool within = (run & 3) > 0;
+            left = within || after >= 0;
+            run = within ? run + 3 : after;
+            after = within ? after : -1;
         } while (left);
-        number = number > 0 && pad <= 0.0 ? next_node(leaf, number, true) : 0;
-    } while (number > 0);
+        if (comes && pad > 0.0) {
+            found.part = 0.0;
+            walk.node = 0;
+        }
+    } while (walk.node > 0);
     return found;
 }
 
@@ -122,20 +130,25 @@ vec3 from_mesh(int i, vec3 v) {
     return unturned(vec4(-attitude.xyz, attitude.w), thing_mesh_up(i) == 0 ? vec3(v.x, -v.z, v.y) : v);
 }
 
-float thing_mesh_crossing(int i, vec3 x, vec3 y, float stray, out bool enters, out int part) {
+float thing_mesh_crossing(int i, vec3 x, vec3 y, vec3 bow, float stray, out bool enters, out int part) {
     vec4 bound = thing_mesh_bound(i);
-    vec3 from = to_mesh(i, x - bound.xyz) / bound.w, way = to_mesh(i, y - x) / bound.w;
+    vec3 from = to_mesh(i, x - bound.xyz) / bound.w, way = to_mesh(i, y - x) / bound.w, bent = to_mesh(i, bow) / bound.w;
     // The part within a little more than the unit ball: single precision is for that.
-    float pad = stray / bound.w, within = 1.025 + 2.0 * pad;
-    float way2 = max(dot(way, way), 1e-30), nearest = -dot(from, way) / way2;
-    vec3 aside = from + nearest * way;
+    float pad = stray / bound.w, within = 1.025 + 2.0 * pad + 0.5 * length(bent);
+    float way2 = max(dot(way, way), 1e-30), nearest = -dot(from + 0.5 * bent, way) / way2;
+    vec3 aside = from + 0.5 * bent + nearest * way;
     float half_chord = sqrt(max(within * within - dot(aside, aside), 0.0) / way2);
     float begin = max(nearest - half_chord, 0.0), end = min(nearest + half_chord, 1.0);
-    vec3 near = aside + (begin - nearest) * way, far = aside + (end - nearest) * way;
-    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far, pad);
+    vec3 near = aside + (begin - nearest) * way + (4.0 * begin * (1.0 - begin) - 0.5) * bent;
+    vec3 far = aside + (end - nearest) * way + (4.0 * end * (1.0 - end) - 0.5) * bent;
+    MeshSpot found = meet_mesh(end > begin ? thing_mesh_file(i) : 0, near, far, (end - begin) * (end - begin) * bent, pad);
     enters = found.enters;
     part = max(found.triangle, 0);
     return found.part <= 1.0 ? mix(begin, end, found.part) : 2.0;
+}
+
+float thing_mesh_grain(int i) {
+    return thing_mesh_bound(i).w * intBitsToFloat(pair_texel(mesh_nodes, 1.0 / vec2(textureSize(mesh_nodes, 0)), thing_mesh_file(i) >> 5).x);
 }
 
 vec3 thing_mesh_facing(int i, int part) {
@@ -160,7 +173,7 @@ Light thing_mesh_light(int i, Sight sight) {
 #else
     const float BESIDE = 0.01;  // of its size, along the ray: where the surface is, to what a place is told
     const bool beside = false;
-    MeshSpot spot = meet_mesh(thing_mesh_file(i), at + BESIDE * towards, at - BESIDE * towards, 0.0);
+    MeshSpot spot = meet_mesh(thing_mesh_file(i), at + BESIDE * towards, at - BESIDE * towards, vec3(0.0), 0.0);
 #endif
     int triangle = max(spot.triangle, 0);
     vec4 texels[6];

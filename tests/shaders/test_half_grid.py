@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,9 @@ from blackhole_gl.rendering.half_grid import HalfGrid, narrow_balls
 from blackhole_gl.rendering.hit_texels import HitArrays
 from blackhole_gl.rendering.inputs import FrameInputs
 from blackhole_gl.rendering.packed_rays import PackedRays
+from blackhole_gl.rendering.refinement import tolerances
 from blackhole_gl.scene import Scene, presets
+from tests.shaders.test_meshes import globe
 
 SIZE = (320, 180)
 
@@ -159,6 +163,26 @@ def test_what_a_moving_ray_meets_of_a_mesh_lies_no_farther_from_its_way_than_out
     pixels = beside / (np.radians(scene.camera.fov_deg) / SIZE[1] * np.linalg.norm(place - camera, axis=-1))
     print(f"{np.quantile(pixels, 0.5):.3f} px beside the way in the middle, {np.quantile(pixels, 0.99):.3f} at 99 %")
     assert both.mean() > 0.03 and 0.0 < np.quantile(pixels, 0.99) <= 0.8 * scene.rays.tolerance
+
+
+@pytest.mark.parametrize(("around", "along"), [(5, 4), (12, 8), (60, 30)])
+def test_no_ray_goes_through_a_moving_mesh_of_few_or_of_many_triangles(renderer: Renderer, tmp_path: Path, around: int, along: int) -> None:
+    """A way is held against small ones as it bends, against large ones in straight pieces: where an exact map has a globe's near side, none has its far one."""
+    values = {"things.knot.file": str(globe(tmp_path / "globe.obj", around, along)), "things.knot.size": 4.0, "rays.edges": 1}
+    scene = presets.load(["knot_behind_a_hole"], values, any_file=True)
+    exact, found = _traced(renderer, scene, progressive=False), _traced(renderer, scene, progressive=True)
+    shown = [hits.met[..., 0, 0] >= 0 for hits in (exact, found)]
+    within = np.pad(shown[0], 1)
+    whole = np.min([within[1 + y : 1 + y + SIZE[1], 1 + x : 1 + x + SIZE[0]] for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
+    off = np.linalg.norm(found.met_place[..., 0, :] - exact.met_place[..., 0, :], axis=-1)[whole]
+    assert whole.sum() > 2000 and np.all(shown[1][whole])
+    assert np.quantile(off, 0.999) < 0.4 and (shown[0] != shown[1]).sum() < 0.01 * whole.sum()
+
+
+def test_rays_at_edges_may_stray_by_no_more_than_those_of_their_picture() -> None:
+    """They are drawn in a map of their own, which is lower: eighteen times as far was allowed."""
+    inputs = _inputs(presets.load(["knot_behind_a_hole"]))
+    assert tolerances(inputs.drawn_as((64, 10))) == tolerances(inputs)
 
 
 def _texel_of(number: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
