@@ -181,7 +181,7 @@ class Picture:
         self._sharpening.forget()
         if step.rehearses:
             self.renderer.hit_map.forget()
-        self.renderer.programs.deadline = step.deadline
+        self.renderer.programs.deadline, self.renderer.programs.foresees = step.deadline, step.foresees
         try:
             if step.rehearses:
                 return self._targets.rehearse(drawing)

@@ -53,6 +53,7 @@ class Step:
         rehearsal: of a rehearsal, whether rays are interpolated; None for a picture.
         is_first: whether it is the first whole picture of a scene, right after its rehearsals.
         deadline: after when no program may be compiled, for ``Programs.deadline``.
+        foresees: whether those that only later pictures may need are to be, for ``Programs.foresees``.
     """
 
     asked: Scene
@@ -61,6 +62,7 @@ class Step:
     rehearsal: bool | None
     is_first: bool
     deadline: float
+    foresees: bool
 
     @property
     def rehearses(self) -> bool:
@@ -100,7 +102,8 @@ class Readiness:
             return None
         rehearsal, edges = _REHEARSALS[self._done] if self._done < len(_REHEARSALS) else (None, True)
         drawn = bridge or (scene if edges else scene.with_values({"rays.edges": 1}))
-        return Step(scene, drawn, waits, rehearsal, self._done == len(_REHEARSALS), self.preparation.deadline(now))
+        is_first, foresees = self._done == len(_REHEARSALS), not self.is_over or self.preparation.since is not None
+        return Step(scene, drawn, waits, rehearsal, is_first, self.preparation.deadline(now), foresees)
 
     def drew(self, step: Step) -> None:
         """What `step` says has been drawn."""

@@ -50,7 +50,9 @@ class WarmUp:
 
 @cache
 def _shared() -> Renderer:
-    return Renderer(create_headless())
+    renderer = Renderer(create_headless())
+    renderer.programs.foresees = True
+    return renderer
 
 
 def _renderer() -> None:

@@ -118,6 +118,8 @@ class CoarseTransfer:
     def draw(self, media: MediaApart, hit_map: HitMap, samplers: Samplers) -> None:
         """Fills the textures for all pixels of `hit_map`, unless they hold just that; `samplers` are what rays look things up in."""
         inputs, asked = media.inputs, self._asked(media, hit_map, samplers)
+        if self._programs.foresees:
+            self.ask_for(media, hit_map)
         self._take_coming(asked)
         made = self._targets(inputs.size, stretches(inputs.plan), media.step, apart=media.apart)
         begins = self._last is None or self._last.rays != asked.rays

@@ -12,7 +12,6 @@ import moderngl
 import numpy as np
 
 from .boxes import grown, inside
-from .classes import seeking_nothing
 from .coarse_transfer import MediaApart
 from .edge_blocks import EdgeBlocks
 from .edge_pixels import EdgePixels
@@ -65,7 +64,6 @@ class EdgeRays:
         self._blocks: RayBlocks | None = None
         self._radiance: Target | None = None
         self._key: tuple | None = None
-        self._rehearsed: set[int] = set()  # programs of rays that have traced such pixels
 
     def look(self, inputs: FrameInputs, hit_map: HitMap) -> None:
         """To come before a map that is not sharp is shaded, and `draw` after: pixels at edges are then sought while the GPU shades."""
@@ -152,8 +150,8 @@ class EdgeRays:
         if side == 1:
             return
         pixels, seeking = self._found(inputs, hit_map, before, changed, motion)
-        if motion is Motion.CAMERA:
-            pixels, seeking = self._with_rehearsal(inputs, pixels, seeking)
+        if self._programs.foresees and motion is Motion.CAMERA:
+            pixels, seeking = _with_either(pixels, seeking, inputs)
         if not len(pixels):
             return
         places = self.prepare(inputs.size)
@@ -176,17 +174,6 @@ class EdgeRays:
             return pixels, seeking
         stands = ~inside(before.pixels, near)
         return np.concatenate([before.pixels[stands], pixels]), np.concatenate([before.seeking[stands], seeking])
-
-    def _with_rehearsal(self, inputs: FrameInputs, pixels: np.ndarray, seeking: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The same and, where a scene's programs of such rays have not all been in use, two pixels in the middle besides: all are then compiled with the first
-        picture that may move, however few edges it has, and not amid a movement."""
-        program = self._programs.get("trace.frag", inputs, seeking_nothing(inputs.plan)).serial
-        if program in self._rehearsed:
-            return pixels, seeking
-        self._rehearsed.add(program)
-        more = np.array(inputs.size) // 2 - [[1, 0], [0, 0]]
-        new = ~(pixels[:, None] == more).all(axis=-1).any(axis=0)
-        return np.concatenate([pixels, more[new]]), np.concatenate([seeking, np.array([not inputs.plan.meetings, True])[new]])
 
     def _found_in_parts(self, inputs: FrameInputs, hit_map: HitMap, before: EdgeBlocks, changed: Squares) -> tuple[np.ndarray, np.ndarray]:
         """The same of a map that is extended, and has no things: what is new of it lies at all sides of the rest."""
@@ -268,3 +255,10 @@ class _Places:
             if item is not None:
                 item.release()
         self._frame = None
+
+
+def _with_either(pixels: np.ndarray, seeking: np.ndarray, inputs: FrameInputs) -> tuple[np.ndarray, np.ndarray]:
+    """The same and two pixels in the middle, whose rays look for things or not: however few edges a picture has, all programs of such rays are then in use."""
+    middle = np.array(inputs.size) // 2 - [[1, 0], [0, 0]]
+    others = ~(pixels[:, None] == middle).all(axis=-1).any(axis=1)
+    return np.concatenate([pixels[others], middle]), np.concatenate([seeking[others], [not inputs.plan.meetings, True]])

@@ -106,21 +106,23 @@ class HalfGrid:
         self._with_nodes = np.empty((0, 0), bool)  # those of them that may show things
         self._ray_boxes: list[Box] = []  # hold all rays
 
-    def choose(
-        self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"], *, first: bool = False
-    ) -> bool:
-        """Marks the rays for those of the coarse grid's cells that lie together; whether there are any, and these rays spare more than they are.
+    def choose(self, inputs: FrameInputs, count: int, own: Bool[np.ndarray, "rows columns"], things: Bool[np.ndarray, "rows columns"]) -> bool:
+        """Marks the rays for those of the coarse grid's cells that lie together; whether there are any, and these rays spare more than they are. Where programs
+        are to be foreseen any cells will do.
 
         Args:
             count: targets of the trace pass.
             own, things: which cells have rays of their own that meet no things, and that may.
-            first: take any there are, so that programs are compiled with a scene's first picture and not amid a movement.
         """
+        foresees = self._programs.foresees
+        if foresees:
+            for name in ("marks", "cells", "fill", *(("ends", "put") if inputs.plan.meetings else ())):
+                self._programs.get(f"refine_half_{name}.frag", inputs)
         left = own | things
-        together = left if first else left & (_about(left) >= _TOGETHER)
+        together = left if foresees else left & (_about(left) >= _TOGETHER)
         about = _about(together) > 0
         with_rays, asked = np.count_nonzero(about), np.count_nonzero(together)
-        if not asked or not first and with_rays > _MOST_RAYS * asked:
+        if not asked or not foresees and with_rays > _MOST_RAYS * asked:
             return False
         made = self._targets(inputs.size, count)
         chosen = np.where(together & things, _NOT_CLEAR, np.where(together, _CLEAR, 0)).astype(np.uint8)
@@ -187,8 +189,6 @@ class HalfGrid:
         fill.sample({**self._hits, "half_cells": self._made.cells.texture})
         self._ends.filter = moderngl.LINEAR, moderngl.LINEAR
         self.trace_own_rays(fill, textures, MATTER)
-        if self._made.ends is not None:
-            self._programs.get("refine_half_put.frag", inputs)  # `trace_packed` of a later picture may need it, though this may pack nothing
 
     def trace_own_rays(self, rays: Draw, textures: Sequence[moderngl.Texture], where: Where) -> None:
         """Draws those pixels that are `where` into `textures`, of the picture's size: `OWN_RAYS` are those left to trace that show no things."""

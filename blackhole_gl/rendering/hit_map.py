@@ -80,7 +80,6 @@ class HitMap:
         self._grid = refinement.CoarseGrid(ctx, programs)
         self._things = ThingsGrid(ctx, programs)
         self._half = half_grid.HalfGrid(ctx, programs)
-        self._halved_by: set[int] = set()  # programs that have told of pixels interpolated so
         self._halved = False  # whether the last refined map has interpolated pixels of its own
         self._fills = False  # whether one thing may fill cells of it
         self._last: FrameInputs | None = None
@@ -369,13 +368,7 @@ class HitMap:
         if plan.orders or plan.meetings > 1 or plan.times:
             return False
         own, things = self._grid.cells_that_are(OWN_RAYS), self._grid.cells_that_are(OPEN_THINGS)
-        program = self._programs.get("refine_half_cells.frag", inputs).serial
-        found = self._half.choose(
-            inputs, len(self.textures), own & plan.model.traits.field, things & (self.known is not None), first=program not in self._halved_by
-        )
-        if found:
-            self._halved_by.add(program)
-        return found
+        return self._half.choose(inputs, len(self.textures), own & plan.model.traits.field, things & (self.known is not None))
 
     def _sharpen(self, rays: Draw, target: moderngl.Framebuffer) -> None:
         height = target.size[1]

@@ -78,6 +78,8 @@ class Programs:
         deadline: ``time.perf_counter()`` after which `get` compiles nothing more and raises `Unready` instead: one program since the deadline was set, as
             drawing what is there may take all the time until then, and none at all where it is −∞. Whoever draws a window sets it before
             each frame, and so spreads the programs of a new scene over several.
+        foresees: whether those are to be compiled, too, that what is drawn now has no use for and later pictures of the scene may have: else they would be
+            compiled amid a movement. Whoever draws a window says so of a scene's first pictures.
         compiled: how many programs have been compiled.
     """
 
@@ -87,6 +89,7 @@ class Programs:
         self.errors: list[ShaderError] = []
         self.compiled = 0
         self.deadline = math.inf
+        self.foresees = False
         self._buffers, self._squares = UniformBuffers(ctx), SquareBuffer(ctx)
         self._composed: OrderedDict[tuple, _Texts] = OrderedDict()
         self._kept: OrderedDict[_Texts, Compiled] = OrderedDict()

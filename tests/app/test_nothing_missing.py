@@ -12,7 +12,7 @@ from blackhole_gl.scene import presets
 
 AREA = Area(0, 0, 640, 360)
 
-# A scene without edges in its first view, one with things of which the first view's rays miss some, and a beam that is narrow at first.
+# A scene whose first views have no edges, one of whose pixels none need packed rays at first, and one of a beam that needs no halving at first.
 QUICK = ("explosion", "objects_lorenz", "sgr_a_eht")
 ALL = tuple(info.name for info in presets.available() if info.group == "scene")
 
