@@ -23,7 +23,7 @@ from .shading import ShadePass
 from .sorting import PixelSorting, hides
 from .squares import TOGETHER, Squares
 from .tables import Tables
-from .target import Target, plain_texture
+from .target import Elsewhere, Target
 from .temperatures import TemperatureProfile
 
 # Rays along each axis of a pixel while the camera moves, when they are traced anew in every frame; and of a pixel that stands for more than `_COARSE` of the
@@ -57,7 +57,7 @@ class EdgeRays:
         self._find = EdgePixels(ctx, programs, sorting)
         self._map = HitMap(ctx, programs, tables)
         self._shade = ShadePass(ctx, programs, tables, temperatures)
-        self._elsewhere = Target.of(ctx, [plain_texture(ctx, (1, 1), 1, "f1")])  # llvmpipe begins a picture when another is asked for
+        self._elsewhere = Elsewhere(ctx)
         self._places: _Places | None = None
         self._texture: moderngl.Texture | None = None
         self._held: EdgeBlocks | None = None
@@ -83,7 +83,7 @@ class EdgeRays:
             media: those that are marched apart from the rest, if any are.
         """
         if not hit_map.is_sharp:
-            self._elsewhere.frame.clear()
+            self._elsewhere.begin()
         self.trace(inputs, hit_map, motion=motion)
         if self._blocks is None or self._radiance is None or self._places is None:
             return

@@ -20,7 +20,7 @@ from .sorting import PixelSorting, Sorted
 from .squares import Patches, Squares
 from .structure import RAY_SLOTS, SHADE_SLOTS, chosen
 from .tables import Tables
-from .target import Target
+from .target import Elsewhere, Target
 from .temperatures import TemperatureProfile
 from .transfer import TransferPass
 
@@ -58,6 +58,7 @@ class ShadePass:
         self.transfer = TransferPass(ctx)
         self.coarse_transfer = CoarseTransfer(ctx, programs)
         self._overlays = Overlays(ctx, programs)
+        self._elsewhere = Elsewhere(ctx)
         self._stretches: Mapping[str, moderngl.Texture] = {}  # what the media of this frame add
         self._sorted: Sorted | None = None  # the pixels of the last sharp map
         self._boxes: dict[Where, Box] = {}  # not known before the second frame of the same pixels
@@ -213,6 +214,8 @@ class ShadePass:
         in_parts = inputs.plan.meetings > 0  # without things it is nearly everywhere
         if where_flat is not None:
             self._draw_classes(self._prepared_sky(inputs, hit_map, where_flat), FLAT_SKY, self._pieces_of(hit_map, FLAT_SKY) if in_parts else None)
+            self._elsewhere.begin()  # the largest part of it: the rest is made ready meanwhile
+            frame.use()
         sky = self._prepared_sky(inputs, hit_map, hit_map.switches())
         if squares is not None:
             self._draw_classes(sky, EVERYWHERE, squares=squares)
@@ -233,6 +236,7 @@ class ShadePass:
         self.sorting.release()
         self.transfer.release()
         self.coarse_transfer.release()
+        self._elsewhere.release()
         self._sorted = None
 
     def _prepared_sky(self, inputs: FrameInputs, hit_map: HitMap, switches: Mapping[str, int]) -> Draw:

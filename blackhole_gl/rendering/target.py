@@ -42,6 +42,26 @@ class Target:
         self.frame.release()
 
 
+class Elsewhere:
+    """A pixel apart from all pictures. llvmpipe waits with what is drawn until another target is asked for (docs/llvmpipe.md)."""
+
+    def __init__(self, ctx: moderngl.Context):
+        self._ctx = ctx
+        self._target: Target | None = None
+
+    def begin(self) -> None:
+        """Has the GPU begin with what was drawn so far, while more is made ready. Whoever goes on asks for the own target anew."""
+        if self._target is None:
+            self._target = Target.of(self._ctx, [plain_texture(self._ctx, (1, 1), 1, "f1")])
+        self._target.frame.clear()
+
+    def release(self) -> None:
+        """Gives the GL objects back."""
+        if self._target is not None:
+            self._target.release()
+            self._target = None
+
+
 def plain_texture(ctx: moderngl.Context, size: tuple[int, int], components: int, dtype: str, filtered: int = moderngl.NEAREST) -> moderngl.Texture:
     """One that does not repeat and has no levels, of `components` numbers of the `dtype` that moderngl names, in rows without gaps."""
     texture = ctx.texture(size, components, dtype=dtype, alignment=1)
