@@ -25,7 +25,7 @@ from .programs import Programs
 from .ray_blocks import RayBlocks
 from .reach import Reached
 from .refinement import tolerances
-from .target import Target, plain_texture
+from .target import Elsewhere, Target, plain_texture
 
 # Of a cell and the eight about it so many have to be traced: along lines, such as outlines of things, rays of their own are cheaper.
 _TOGETHER = 4
@@ -98,6 +98,7 @@ class HalfGrid:
     def __init__(self, ctx: moderngl.Context, programs: Programs):
         self._ctx, self._programs = ctx, programs
         self._kept: _Made | None = None
+        self._elsewhere = Elsewhere(ctx)
         self._into: dict[int, moderngl.Framebuffer] = {}  # by the number of targets
         self.cells = np.empty((0, 0), np.float32)
         self._held: dict[Where, np.ndarray] = {}  # which of them are
@@ -205,6 +206,7 @@ class HalfGrid:
 
     def pack(self) -> RayBlocks | None:
         """The rays that are left to pixels which may show things, side by side; None where there are none."""
+        self._elsewhere.begin()  # what is drawn already: to pack takes the host a while
         nodes = _parted(self._with_nodes)[: self.cells.shape[0], : self.cells.shape[1]]
         return self._made.packed.blocks if self._made.packed.choose(self._that_are(OPEN_THINGS), nodes) else None
 
@@ -233,6 +235,7 @@ class HalfGrid:
             into.release()
         if self._kept is not None:
             self._kept.release()
+        self._elsewhere.release()
         self._into, self._kept = {}, None
 
     def _that_are(self, where: Where) -> Bool[np.ndarray, "rows columns"]:
