@@ -66,7 +66,8 @@ class EdgeRays:
         self._key: tuple | None = None
 
     def look(self, inputs: FrameInputs, hit_map: HitMap) -> None:
-        """To come before a map that is not sharp is shaded, and `draw` after: pixels at edges are then sought while the GPU shades."""
+        """To come as soon as a map that is not sharp is traced, and `draw` after it is shaded: the marks are made ready while the GPU traces, and pixels at
+        edges sought while it shades."""
         if inputs.plan.scene.rays.edges > 1 and not hit_map.is_sharp and (self._key is None or self._key[0] != hit_map.generation):
             self._find.look(inputs, hit_map)
 

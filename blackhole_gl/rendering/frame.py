@@ -137,6 +137,8 @@ class Renderer:
         self.last.show(inputs, apart=rest is not inputs)
         traced = self._trace(rest, progressive=progressive and not diagnostics.is_on(scene))
         self._views.fit(scene, self.hit_map, moving=progressive)
+        if not diagnostics.is_on(scene):
+            self.edges.look(rest, self.hit_map)
         self._stamp(stamps, measure)
         thing_moved = traced and glow_may_last and instances.anything_moves(inputs.plan)
         if not progressive and self.programs.deadline < math.inf:
@@ -459,7 +461,6 @@ class Renderer:
         """The same of the own hit map, with several rays in the pixels at edges."""
         if diagnostics.is_on(inputs.plan.scene):
             return self._shaded(inputs, self.hit_map, media)
-        self.edges.look(inputs, self.hit_map)
         radiance = self._shaded(inputs, self.hit_map, media)
         self.edges.draw(inputs, self.hit_map, radiance, motion=motion, media=media)
         return radiance
