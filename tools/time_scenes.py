@@ -6,7 +6,8 @@
 Prints a Markdown table of each preset (without any named: all scenes), medians of the rounds: the processor time of a frame; of it, that of a frame of next to
 no pixels, which one core has to take alone; what two idle cores would take of a frame drawn with one thread, as they share all but that; the wall clock; how
 many times the processor time is that of a frame of `galaxies_through_a_screen_lens` in the same round; and how the rays are traced. A scene's frames follow
-each other, each after one of that yardstick: a window shows one scene, and the programs of more than a few would not be kept from frame to frame.
+each other, each after one of that yardstick, which has a renderer of its own: a window shows one scene, and neither the programs of more than a few nor another's
+pictures would be kept from frame to frame.
 """
 
 from __future__ import annotations
@@ -59,11 +60,12 @@ class Stage:
         return 1e3 * (time.process_time() - processor), 1e3 * (time.perf_counter() - wall), report.method
 
 
-def row_of(renderer: Renderer, scene: Scene, yardstick: Scene, size: tuple[int, int], rounds: int) -> str:
-    """The figures of one scene."""
+def row_of(renderer: Renderer, scene: Scene, yardstick: Stage, size: tuple[int, int], rounds: int) -> str:
+    """The figures of one scene; `yardstick` draws that."""
+    ctx, by = renderer.ctx, presets.load([YARDSTICK])
     whole, least = Stage.of(renderer, size, SHOWN), Stage.of(renderer, NEXT_TO_NONE, NEXT_TO_NONE)
-    few = [least.frame(renderer.ctx, scene, number)[0] for number in range(rounds + 2)][2:]
-    pairs = [(whole.frame(renderer.ctx, yardstick, number), whole.frame(renderer.ctx, scene, number + 0.5)) for number in range(rounds + 2)]
+    few = [least.frame(ctx, scene, number)[0] for number in range(rounds + 2)][2:]
+    pairs = [(yardstick.frame(ctx, by, number), whole.frame(ctx, scene, number + 0.5)) for number in range(rounds + 2)]
     pairs = pairs[2:]  # the first compile, the second finish what the first began
     processor, alone = median(own[0] for _, own in pairs), median(few)
     shared = alone + 0.5 * max(processor - alone, 0.0)
@@ -77,9 +79,10 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("presets", nargs="*", metavar="PRESET")
     given = parser.parse_args()
-    width, height = map(int, given.size.split("x"))
+    width, height = (int(side) for side in given.size.split("x"))
     names = given.presets or [info.name for info in presets.available() if info.group == "scene"]
-    renderer, yardstick = Renderer(create_headless()), presets.load([YARDSTICK])
+    renderer = Renderer(create_headless())
+    yardstick = Stage.of(Renderer(renderer.ctx), (width, height), SHOWN)
     print("| scene | processor ms | of it one core's alone | two cores, ms | wall clock, ms | times | rays |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | --- |", flush=True)
     for name in names:
