@@ -6,8 +6,8 @@
 Prints a Markdown table of each preset (without any named: all scenes), medians of the rounds: the processor time of a frame; of it, that of a frame of next to
 no pixels, which one core has to take alone; what two idle cores would take of a frame drawn with one thread, as they share all but that; the wall clock; how
 many times the processor time is that of a frame of `galaxies_through_a_screen_lens` in the same round; and how the rays are traced. A scene's frames follow
-each other, each after one of that yardstick, which has a renderer of its own: a window shows one scene, and neither the programs of more than a few nor another's
-pictures would be kept from frame to frame.
+each other, each after one of that yardstick, which has a renderer of its own: a window shows one scene, and neither the programs of more than a few nor the
+pictures of another would be kept from frame to frame.
 """
 
 from __future__ import annotations
