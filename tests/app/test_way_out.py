@@ -26,6 +26,13 @@ def test_a_hand_that_zooms_never_ends_in_black(renderer: Renderer, name: str) ->
         assert not black(renderer, scene.with_values({"camera.distance": min(distance, 1e4)})), distance
 
 
+def test_pixels_are_counted_and_not_their_channels() -> None:
+    for lit, channels, is_dark in ((4, 3, True), (5, 1, False), (5, 3, False), (0, 1, True), (9_000, 2, False)):
+        pixels = np.zeros((10_000, 3), np.uint8)
+        pixels[:lit, :channels] = 200
+        assert is_black(pixels.ravel()) is is_dark, "five of 10,000 pixels, whatever their colour, are no black picture"
+
+
 @pytest.mark.parametrize("values", [{"post.exposure": -8.0}, {"disk.enabled": False, "sky.enabled": False}, {"camera.distance": 1.02}])
 def test_a_black_picture_is_noticed(renderer: Renderer, values) -> None:
     scene = presets.load(["schwarzschild"])
